@@ -21,18 +21,20 @@ FOLDER = ROOT / "docs" / "pictures" / "gallery"
 
 
 def commands(page):
-    """The words of the command of each picture, by the picture's name."""
+    """The commands of each picture as words, by the name of its file; the last one draws it, others make what it takes."""
     found = {}
-    for name, command in re.findall(r"\(pictures/gallery/(\w+)\.png\)\s*```sh\n(?:mkdir [^\n]*\n)?(.*?)\n```", page, re.DOTALL):
-        words = shlex.split(command)
-        if words[0] != "vdb_molsurf" or words[-2:] != ["-o", f"gallery/{name}.png"]:
-            sys.exit(f"gallery.py: expected vdb_molsurf ... -o gallery/{name}.png, got {command}")
-        found[name] = words[1:-1]
+    for name, block in re.findall(r"\(pictures/gallery/([\w.]+)\)\s*```sh\n(?:mkdir [^\n]*\n)?(.*?)\n```", page, re.DOTALL):
+        calls = [shlex.split(line) for line in block.splitlines()]
+        if any(words[0] != "vdb_molsurf" for words in calls) or calls[-1][-2:] != ["-o", f"gallery/{name}"]:
+            sys.exit(f"gallery.py: expected vdb_molsurf ... -o gallery/{name}, got {block}")
+        found[name] = [words[1:] for words in calls]
     return found
 
 
-def draw(program, words, path):
-    subprocess.run([program, *words, path, "-q", "--force"], cwd=ROOT, check=True)
+def draw(program, calls, path):
+    (ROOT / "gallery").mkdir(exist_ok=True)  # git ignores it
+    for words in [*calls[:-1], [*calls[-1][:-1], path]]:
+        subprocess.run([program, *words, "-q", "--force"], cwd=ROOT, check=True)
 
 
 def faults(program):
@@ -43,18 +45,20 @@ def faults(program):
     sys.path.insert(0, str(ROOT / "tests" / "cli"))
     os.environ["VDB_MOLSURF"] = str(program)
     from tool import read_png
-    for name, words in commands(page.read_text()).items():
+    for name, calls in commands(page.read_text()).items():
+        if not name.endswith(".png"):  # films depend on the version of ffmpeg
+            continue
         with tempfile.TemporaryDirectory() as folder:
             new = pathlib.Path(folder) / "new.png"
-            draw(program, words, new)
-            (width, rows), (old_width, old_rows) = (read_png(p.read_bytes()) for p in (new, FOLDER / f"{name}.png"))
+            draw(program, calls, new)
+            (width, rows), (old_width, old_rows) = (read_png(p.read_bytes()) for p in (new, FOLDER / name))
         if (width, len(rows)) != (old_width, len(old_rows)):
-            lines.append(f"docs/pictures/gallery/{name}.png: {old_width} x {len(old_rows)} pixels, new ones {width} x {len(rows)}")
+            lines.append(f"docs/pictures/gallery/{name}: {old_width} x {len(old_rows)} pixels, new ones {width} x {len(rows)}")
             continue
         far = sum(any(abs(row[x + i] - old[x + i]) > 2 for i in range(3))
                   for row, old in zip(rows, old_rows) for x in range(0, 3 * width, 3))
         if far > 0.01 * width * len(rows):
-            lines.append(f"docs/pictures/gallery/{name}.png: {100 * far / width / len(rows):.1f} % of the pixels are not as drawn now")
+            lines.append(f"docs/pictures/gallery/{name}: {100 * far / width / len(rows):.1f} % of the pixels are not as drawn now")
     return lines
 
 
@@ -68,7 +72,7 @@ def main():
         sys.exit("gallery.py: expected some of " + ", ".join(known))
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in names:
-        draw(program, known[name], FOLDER / f"{name}.png")
+        draw(program, known[name], FOLDER / name)
 
 
 if __name__ == "__main__":

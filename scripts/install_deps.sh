@@ -17,7 +17,7 @@ packages=(
 )
 test=(libgtest-dev libcgal-dev pkg-config python3 python3-openvdb python3-numpy python3-biopython libopenvdb-tools)
 check=(clang-format libbenchmark-dev universal-ctags)
-optional=(apbs blender chromium fish freesasa gmsh groff munge pymol slurm-wlm snakemake strace tetgen zsh) # 1.4 GB
+optional=(apbs blender chromium ffmpeg fish freesasa gmsh groff munge pymol slurm-wlm snakemake strace tetgen zsh) # 1.4 GB
 # Node.js may be there from elsewhere, whose packages do not go together with Debian's.
 command -v node > /dev/null || optional+=(nodejs)
 command -v npm > /dev/null || optional+=(npm)

@@ -67,9 +67,11 @@ std::vector<Task> tasksOf(const Call& call)
         const auto [other, fresh] = taken.emplace(stem, input);
         if (stem.empty() || !fresh) failTwice(call, input, other->second, stem + ".*");
         Task task{input, stem, {}};
-        for (const Output& kind : call.outputs)
-            task.outputs.push_back(
-                {(fs::path(call.folder) / stem).string() + kind.path, kind.format});
+        for (const Output& kind : call.outputs) {
+            Output output = kind;
+            output.path = (fs::path(call.folder) / stem).string() + kind.path;
+            task.outputs.push_back(std::move(output));
+        }
         tasks.push_back(std::move(task));
     }
     checkNames(call, tasks);

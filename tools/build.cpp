@@ -3,7 +3,9 @@
 
 #include "bricks.h"
 #include "cli/option_table.h"
+#include "draw_result.h"
 #include "identity.h"
+#include "input_files.h"
 #include "outputs.h"
 #include "sidecar.h"
 #include "stop.h"
@@ -21,6 +23,7 @@
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
 
+#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -146,6 +149,14 @@ void keepWalls(const Call& call, const Progress& progress, Mesh& mesh)
         throw Error(ErrorKind::Input, "--walls cavities: the surface has no cavity");
 }
 
+// Gives back what pictures need more than files without grids.
+void dropGrids(MolecularSurface& result)
+{
+    result.surface.reset();
+    result.fields.clear();
+    malloc_trim(0); // fields leave pieces of memory
+}
+
 // The middle of the mesh's box comes to the origin, with the atoms that pictures show; grids and
 // other atoms follow when they are written.
 void centerMesh(Call& call, MolecularSurface& result)
@@ -264,8 +275,10 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
 
     keepWalls(call, terminal, result.mesh);
     if (call.center) centerMesh(call, result);
+    if (!call.panels.empty()) call.panelSurfaces = makePanels(call, balls, result.mesh, terminal);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
+    if (!call.writes(Grids | Stage | Volume | Solver)) dropGrids(result);
     writeAll(call, balls, result, shown, terminal, start, companions);
     terminal.erase();
     return result.report;
@@ -365,6 +378,8 @@ Report buildSurface(Call call, Clock::time_point start)
 {
     const SolverFolders folders(call);
     prepareOutputs(call, folders.made());
+    for (const Panel& panel : call.panels)
+        if (!panel.file.empty()) failIfNoFile(panel.file);
     Terminal terminal(call.progress);
     Report read;
     const BallSet balls = readBalls(call, terminal, read);

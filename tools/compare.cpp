@@ -6,6 +6,7 @@
 #include "outputs.h"
 #include "sha256.h"
 #include "terminal.h"
+#include "write_result.h"
 
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/core/words.h"
@@ -107,9 +108,8 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
 
 std::vector<std::string> warningsOf(const Call& call, const Read& a, const Read& b)
 {
-    std::vector<std::string> all;
+    std::vector<std::string> all = call.warnings;
     const bool structures = a.operand.kind == "structure" || b.operand.kind == "structure";
-    if (structures) all = call.warnings;
     std::vector<std::string> idle; // options that only structures need; meshes have voxels, too
     for (const OptionGroup& group : optionTable())
         for (const Option& option : group.options)
@@ -248,6 +248,11 @@ int compare(const Call& call, Clock::time_point start)
     report.b = described(b);
     report.threads =
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    MolecularSurface drawn;
+    if (call.writes(Views)) drawn.mesh = comparisonMesh(a.operand.surface.mesh, report);
+    ShownMeshes shown;
+    shown.legend = comparisonLegend(report);
+    shown.about = "Distances from " + displayName(inputStem(b.path)) + ". Areas are of the mesh.";
     writeOutputs(
         call, terminal,
         [&](const Output& output, OutputFile& file) {
@@ -255,8 +260,10 @@ int compare(const Call& call, Clock::time_point start)
                 writeComparisonMesh(a.operand.surface.mesh, report, file);
             else if (output.holds(Grids))
                 writeVdb(grids(call, a.operand, toB, terminal), metadata(call, report), file);
-            else
+            else if (output.holds(Numbers))
                 writeComparison(report, file);
+            else
+                writeOutput(call, {}, drawn, output, terminal, file, shown);
         },
         [&](double seconds) { endReport(seconds, start, report); });
     terminal.erase();

@@ -2,6 +2,8 @@
 #include "verbs.h"
 
 #include "cli/option_table.h"
+#include "draw_result.h"
+#include "film.h"
 #include "input_files.h"
 #include "outputs.h"
 #include "picture_atoms.h"
@@ -16,11 +18,14 @@
 #include "molsurf/io/usda_text.h"
 #include "molsurf/io/write_table.h"
 #include "molsurf/io/write_vdb.h"
+#include "molsurf/picture/view.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
+#include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/velocity.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -50,7 +55,7 @@ Call callOf(const Call& call, std::size_t file, int frame)
             const bool film = output.beside.empty();
             output.beside = numbered(film ? output.path : output.beside);
             if (film) one.outputs.push_back({output.beside, output.format});
-        } else {
+        } else if (!output.holds(Moving)) { // which has them all
             output.path = numbered(output.path);
         }
         one.outputs.push_back(std::move(output));
@@ -213,6 +218,7 @@ public:
         if (!call_.viewed.empty())
             lookAt(call_, pictured(call_.viewed)->balls(0), source_.balls(0), call_.picture);
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
+        if (call_.writes(Views) && !call_.picture.frame) keepOneView();
         options_ = optionsDigest(call_);
         if (!tableName_.empty()) {
             InputFiles(call_).refuse(tableName_);
@@ -224,9 +230,17 @@ public:
             checkOutput(call_, output);
             areas_.push_back({output, std::make_unique<OutputFile>(output.path, call_.force)});
         }
+        for (Output& output : call_.outputs) {
+            if (!output.holds(Moving)) continue;
+            checkOutput(call_, output);
+            films_.push_back(
+                std::make_shared<Film>(std::make_unique<OutputFile>(output.path, call_.force),
+                                       call_.fps > 0.0 ? call_.fps : filmRate));
+            output.film = films_.back();
+        }
         for (std::size_t i = 0; i < source_.size(); ++i) {
             calls_.push_back(callOf(call_, fileOf(i), source_.number(i)));
-            done_.push_back(!call_.force && areas_.empty() && !share_.isAsked() &&
+            done_.push_back(!call_.force && areas_.empty() && films_.empty() && !share_.isAsked() &&
                             isDone(calls_[i], options_, table_, tableName_, fileOf(i)));
             if (done_[i]) continue;
             for (const Output& output : calls_[i].outputs) checkOutput(call_, output);
@@ -267,14 +281,15 @@ public:
     /// @return the exit status
     int finish(Clock::time_point start)
     {
-        OutputFiles tables;
-        for (auto& [output, file] : areas_) tables.push_back(std::move(file));
+        OutputFiles files;
+        for (auto& [output, file] : areas_) files.push_back(std::move(file));
         if (share_.isAsked()) {
             openvdb::MetaMap metadata = vdbMetadata(call_, lastReport_);
             for (const char* ofFrame : {"area", "volume"}) metadata.removeMeta(ofFrame);
-            tables.push_back(share_.written(metadata));
+            files.push_back(share_.written(metadata));
         }
-        if (!tables.empty()) commitUndisturbed(tables);
+        for (const auto& film : films_) files.push_back(film->finish());
+        if (!files.empty()) commitUndisturbed(files);
         if (!call_.quiet) {
             if (!changes_.empty())
                 say("the topology is another than that before in frames " + changes_);
@@ -301,6 +316,37 @@ private:
         return source;
     }
 
+    /// All frames are seen from one side, in one size.
+    void keepOneView()
+    {
+        double margin = 0.0; // [Å]
+        for (const Ball& ball : asMeshed(source_.balls(0).balls, call_.options))
+            margin = std::max(margin, double(ball.radius));
+        // measured: surfaces of 1UBQ at 6, 12 and 20 Å reach 1.8, 3.7 and 7.8 Å beyond its atoms
+        constexpr double blurred = 0.4;
+        for (const ResolutionRule& rule : call_.atoms.resolutions)
+            margin = std::max(margin, blurred * rule.resolution);
+        const openvdb::Vec3d origin = call_.center ? call_.scene.center : openvdb::Vec3d(0.0);
+        setUpright(source_.balls(0), call_.picture);
+        const auto pointsOf = [&](std::size_t i) {
+            std::vector<openvdb::Vec3d> points;
+            const auto add = [&](const BallSet& atoms) {
+                for (const Ball& ball : atoms.balls)
+                    points.push_back(openvdb::Vec3d(ball.center) - origin);
+            };
+            add(source_.balls(i));
+            for (const auto& source : shown_) add(source->balls(i));
+            return points;
+        };
+        keepView(source_.size(), pointsOf, margin, call_.picture);
+    }
+
+    /// All frames have the colours of values, and so the legend, of the first one.
+    void keepOneRange(const BallSet& balls, const MolecularSurface& result)
+    {
+        if (!range_ && call_.writes(Views)) range_ = rangeOf(call_, balls, result.mesh, terminal_);
+    }
+
     void make(std::size_t i)
     {
         const Clock::time_point start = Clock::now();
@@ -314,10 +360,12 @@ private:
                         "frame " + std::to_string(i + 1) + "/" + std::to_string(size()) + ": ");
         std::vector<openvdb::Vec3f> displacement;
         if (moves_) displacement = source_.displacement(i);
-        const BallSet& balls = source_.balls(i);
+        BallSet balls = source_.balls(i);
+        takeRange(range_, balls);
         std::vector<BallSet> shown;
         for (const auto& source : shown_) shown.push_back(source->balls(i));
-        showAtoms(call_, std::move(shown), balls, terminal_, calls_[i].picture);
+        showAtoms(call_.shows, std::move(shown), shown_.empty() ? nullptr : shown_[0]->bonds(),
+                  balls, terminal_, calls_[i].picture);
         std::size_t next = 0;
         addNotes(
             call_.notes, [&](const std::string&) { return noted_[next++]->balls(i); },
@@ -326,6 +374,7 @@ private:
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};
         const auto extend = [&](MolecularSurface& result) {
+            keepOneRange(balls, result);
             if (moves_) addVelocities(call_, balls, displacement, terminal_, result);
             if (share_.isAsked()) share_.add(result);
             for (auto& [output, file] : areas_)
@@ -363,6 +412,8 @@ private:
         std::unique_ptr<OutputFile> file;
     };
     std::vector<AreaFile> areas_; // of all frames
+    std::vector<std::shared_ptr<Film>> films_;
+    std::optional<std::array<double, 2>> range_; // of values, as the first frame has it
     std::vector<Call> calls_;
     std::vector<bool> done_;
     std::size_t creeping_ = 0;

@@ -2,6 +2,7 @@
 #include "outputs.h"
 
 #include "commit_hash.h"
+#include "film.h"
 #include "identity.h"
 #include "input_files.h"
 #include "sidecar.h"
@@ -150,6 +151,7 @@ void checkOutput(const Call& call, const Output& output)
     InputFiles(call).refuse(output.path);
     checkWritable(output.path, mayReplace(call, output));
     if (output.format == findFormat("html")) needViewer();
+    if (output.holds(Moving)) checkFilm(output.path);
 }
 
 void prepareOutputs(const Call& call, const std::vector<std::string>& more)
@@ -190,7 +192,8 @@ void writeOutputs(const Call& call, Terminal& terminal,
                   const std::function<void(double)>& timed, bool sideBySide,
                   const std::function<void(OutputFiles&)>& addMore)
 {
-    std::vector<Output> outputs = call.outputs;
+    std::vector<Output> outputs, films;
+    for (const Output& output : call.outputs) (output.film ? films : outputs).push_back(output);
     std::stable_sort(outputs.begin(), outputs.end(), [](const Output& a, const Output& b) {
         const auto turn = [](const Output& o) { return 2 * o.holds(Numbers) + isStream(o.path); };
         return turn(a) < turn(b);
@@ -209,6 +212,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
         return sideBySide && !o.holds(Numbers) && !isStream(o.path);
     };
     terminal.update("write", 0.0);
+    for (const Output& output : films) writeOne(output, output.film->file());
     for (const Output& output : outputs) {
         if (!apart(output)) break;
         files.push_back(std::make_unique<OutputFile>(output.path, mayReplace(call, output)));

@@ -86,7 +86,7 @@ void recoverOutputs(const Call& call);
 
 /// Writes all files, and only when every one is complete puts them in their place. The report comes
 /// last, because it tells how long the others took; streams, which cannot be taken back, only
-/// precede the reports.
+/// precede the reports. A film of several runs gets what it is to have of this one.
 ///
 /// @param[in] writeOne  writes one of them
 /// @param[in] timed     is called once with the seconds that writing took, before the report is

@@ -58,7 +58,8 @@ SelectOptions picturedAtoms(const Call& call, const std::string& select)
     return options;
 }
 
-void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surface,
+void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
+               const std::shared_ptr<const FileBonds>& bonds, const BallSet& surface,
                const Progress& progress, DrawOptions& picture)
 {
     if (atoms.empty()) return;
@@ -68,7 +69,7 @@ void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surf
     std::vector<ShownAtoms> shown;
     for (std::size_t k = 0; k < atoms.size(); ++k) {
         atoms[k].labels->chainColors = colorsOfChains(atoms[k], ofSurface, progress);
-        shown.push_back({std::move(atoms[k]), call.shows[k]});
+        shown.push_back({std::move(atoms[k]), rules[k], bonds});
     }
     const double bytes = bytesOfModel(shown), available = double(availableMemory());
     if (bytes > available)

@@ -21,10 +21,12 @@ namespace molsurf::tool
 SelectOptions picturedAtoms(const Call& call, const std::string& select);
 
 /// Puts atoms into the picture. Chains have the colours of the surface's.
-/// @param[in] atoms    of each --show, in its order
+/// @param[in] atoms    of each rule
+/// @param[in] bonds    of their file; null: it gives none
 /// @param[in] surface  the balls that the surface is of
 /// @throws Error(ErrorKind::Input) if there is nothing to show, or more than the memory holds
-void showAtoms(const Call& call, std::vector<BallSet> atoms, const BallSet& surface,
+void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
+               const std::shared_ptr<const FileBonds>& bonds, const BallSet& surface,
                const Progress& progress, DrawOptions& picture);
 
 /// Adds labels and rulers.

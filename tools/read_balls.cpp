@@ -15,8 +15,27 @@
 namespace molsurf::tool
 {
 
+namespace
+{
+
+/// Whether a structure has what f takes of it.
+/// @param[in] partly  whether it may lack that
+template<typename F>
+bool isThere(bool partly, const F& f)
+{
+    try {
+        f();
+    } catch (const Error& error) {
+        if (!partly || error.kind() != ErrorKind::Input) throw;
+        return false;
+    }
+    return true;
+}
+
+} // namespace
+
 DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal,
-                         DrawOptions* picture)
+                         DrawOptions* picture, bool partly)
 {
     terminal.update("read", 0.0);
     failIfNoFile(path);
@@ -34,16 +53,20 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
     options.memory = call.memory;
     BallSet balls = selectBalls(structure, options, probeOf(call.options), terminal);
     std::string description = describeSelection(structure, balls);
-    if (picture) {
-        const auto chosen = [&](const std::string& select) {
-            return selectBalls(structure, picturedAtoms(call, select), 0.0, terminal);
-        };
-        std::vector<BallSet> shown;
-        for (const ShowRule& rule : call.shows) shown.push_back(chosen(rule.select));
-        showAtoms(call, std::move(shown), balls, terminal, *picture);
-        addNotes(call.notes, chosen, *picture);
-        if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);
+    if (!picture) return {std::move(balls), std::move(description)};
+    const auto chosen = [&](const std::string& select) {
+        return selectBalls(structure, picturedAtoms(call, select), 0.0, terminal);
+    };
+    std::vector<ShowRule> rules;
+    std::vector<BallSet> shown;
+    for (const ShowRule& rule : call.shows) {
+        const bool there = isThere(partly, [&] { shown.push_back(chosen(rule.select)); });
+        if (there) rules.push_back(rule);
     }
+    showAtoms(rules, std::move(shown), structure.bonds, balls, terminal, *picture);
+    for (const NoteRule& rule : call.notes)
+        isThere(partly, [&] { addNotes({rule}, chosen, *picture); });
+    if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);
     return {std::move(balls), std::move(description)};
 }
 

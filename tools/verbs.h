@@ -55,8 +55,9 @@ struct DescribedBalls {
 };
 
 /// @param[in,out] picture  gets the atoms that it shows and looks at; null: there is none
+/// @param[in]     partly   what the structure lacks of these atoms is left out
 DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal,
-                         DrawOptions* picture = nullptr);
+                         DrawOptions* picture = nullptr, bool partly = false);
 
 /// The balls of a call, described on standard error.
 /// @param[in,out] call    gets the atoms of its picture

@@ -2,6 +2,8 @@
 #include "write_result.h"
 
 #include "cli/option_table.h"
+#include "draw_result.h"
+#include "film.h"
 #include "identity.h"
 #include "outputs.h"
 #include "sha256.h"
@@ -23,8 +25,8 @@
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/io/write_view_script.h"
 #include "molsurf/io/write_volume.h"
-#include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/draw_profile.h"
+#include "molsurf/picture/legend_svg.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
@@ -94,20 +96,6 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
 namespace
 {
 
-/// The point that is 0 in meshes.
-openvdb::Vec3d originOf(const Call& call)
-{
-    return call.center ? call.scene.center : openvdb::Vec3d(0.0);
-}
-
-/// The balls where they lie to the mesh.
-std::vector<Ball> placedBalls(const Call& call, const BallSet& atoms)
-{
-    std::vector<Ball> balls = atoms.balls;
-    for (Ball& ball : balls) ball.center -= originOf(call);
-    return balls;
-}
-
 openvdb::GridCPtrVec gridsOf(const Call& call, const MolecularSurface& result)
 {
     const openvdb::GridPtrVec all = result.grids();
@@ -124,67 +112,6 @@ LengthUnit printUnit(const Call& call)
 std::string stemOf(const std::string& path)
 {
     return path == "-" ? "surface" : std::filesystem::path(path).stem().string();
-}
-
-/// The copies of an assembly as nodes.
-/// @param[in] colored  copies that are near have different colours
-std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                                      bool colored, const Progress& progress)
-{
-    const Color plain = mesh.colors.empty() ? call.picture.plain : Color{255, 255, 255};
-    const std::vector<Color> colors =
-        colored ? instanceColors(atoms, progress) : std::vector<Color>();
-    std::vector<MeshInstance> out;
-    for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
-        const Instance& copy = atoms.placement.instances[i];
-        out.push_back({copy.part, "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
-                       copy.rotation, copy.translation, colors.empty() ? plain : colors[i]});
-    }
-    return out;
-}
-
-/// The colours of points inside.
-std::function<Color(const openvdb::Vec3d&)>
-insideOf(const Call& call, const BallSet& atoms, const std::shared_ptr<const ColorOwners>& borders)
-{
-    constexpr double farthest = 30.0; // from a ball [Å]
-    if (borders)
-        return [borders](const openvdb::Vec3d& x) {
-            std::vector<OwnersPower> near;
-            borders->owners.at(x, 0.0, near);
-            return near.empty() ? neutralColor : borders->colors[std::size_t(near[0].owner)];
-        };
-    if (call.options.color == ColorBy::Nothing) return nullptr;
-    if (call.options.color != ColorBy::Value || atoms.balls.empty())
-        return [](const openvdb::Vec3d&) { return neutralColor; };
-    const auto values =
-        std::make_shared<PointValues>(atoms, outwardOf(atoms.coloring, call.options));
-    return [values, origin = originOf(call)](const openvdb::Vec3d& x) {
-        return values->colorOf(values->at(x + origin, openvdb::Vec3d(0.0), farthest));
-    };
-}
-
-/// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
-/// for every voxel.
-DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
-                      const Progress& progress)
-{
-    DrawOptions options = call.picture;
-    options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
-    if (call.options.color == ColorBy::Pocket) options.glass = neutralColor;
-    const bool chosen = options.upright.lengthSqr() > 0.0 || options.toEye.lengthSqr() > 0.0;
-    if (atoms.membrane && !chosen) options.upright = *atoms.membrane;
-    if (atoms.placement.isWhole()) {
-        for (const Ball& ball : atoms.balls) options.about.emplace_back(ball.center);
-        return options;
-    }
-    constexpr std::size_t enough = 300; // balls of a prototype
-    for (const MeshInstance& copy : options.instances) {
-        const auto [begin, end] = atoms.prototype(copy.part);
-        for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
-            options.about.push_back(copy.placed(openvdb::Vec3d(atoms.balls[i].center)));
-    }
-    return options;
 }
 
 } // namespace
@@ -233,8 +160,7 @@ ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh
     };
     const bool cut = shows([&](const Output& output) { return isCrisp(call, output); });
     if (cut || shows([](const Output& output) { return output.holds(Pixels); }))
-        shown.borders = bordersOf(call.options.color, atoms,
-                                  asMeshed(placedBalls(call, atoms), call.options), mesh, progress);
+        shown.borders = bordersOf(call, atoms, mesh, progress);
     if (!cut || !shown.borders) return shown;
     const KindRow& kind = rowOf(call.options.kind);
     shown.crisp = withCrispBorders(
@@ -252,7 +178,7 @@ struct Writing {
     const Mesh& mesh;                 ///< with the borders that the format shows
     const Mesh& whole;                ///< by symmetry the mesh of the whole, else the same
     std::vector<const Mesh*> coarser; ///< further levels of detail
-    const std::shared_ptr<const ColorOwners>& borders;
+    const ShownMeshes& shown;
 };
 
 namespace
@@ -263,18 +189,28 @@ std::vector<MeshInstance> instancesOf(const Writing& w)
     return instancesOf(w.call, w.atoms, w.mesh, w.call.colorsCopies(), w.progress);
 }
 
+Drawn drawnOf(const Writing& w)
+{
+    return {w.call, w.atoms, w.mesh, w.shown.borders, w.shown.legend, w.progress};
+}
+
 void writePicture(const Writing& w, OutputFile& file)
 {
-    const Call& call = w.call;
-    DrawOptions options = pictureOf(call, w.atoms, w.mesh, call.colorsCopies(), w.progress);
-    options.turn += w.output.turn;
-    options.borders = w.borders;
-    if (options.clip) options.inside = insideOf(call, w.atoms, w.borders);
-    std::vector<Legend> legends;
-    if (call.drawsLegend())
-        legends = legendsOf(legendOf(call.options.color, w.atoms, w.mesh, w.progress),
-                            options.model.get());
-    writePng(drawExplained(w.mesh, std::move(options), legends, call.scaleBar, w.progress), file);
+    writePng(drawResult(drawnOf(w), w.output.turn, false), file);
+}
+
+void writeFilm(const Writing& w, OutputFile& file)
+{
+    if (w.output.film) return w.output.film->add(drawResult(drawnOf(w), 0.0, true));
+    Film film(file, w.call.fps > 0.0 ? w.call.fps : filmRate);
+    const int count = w.call.turntable;
+    for (int n = 0; n < count; ++n) film.add(drawResult(drawnOf(w), 360.0 * n / count, true));
+    film.finish();
+}
+
+void writeLegend(const Writing& w, OutputFile& file)
+{
+    writeLegendSvg(legendsOf(drawnOf(w)), w.call.picture.background, file);
 }
 
 void writeCamera(const Writing& w, OutputFile& file)
@@ -326,16 +262,20 @@ void writeGlb(const Writing& w, OutputFile& file)
 void writePage(const Writing& w, OutputFile& file)
 {
     const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
-    HtmlPage page{displayName(inputStem(w.call.input)),
-                  aboutPage(w.result.report.surface.kind, w.call.options.voxel),
-                  offeredLegends(w.call.options.color, w.atoms, w.mesh, w.progress),
-                  w.call.picture.plain,
-                  viewAxes(w.mesh, view),
-                  view.instances,
-                  w.call.colorsCopies(),
-                  w.coarser};
+    HtmlPage page{
+        displayName(inputStem(w.call.input)),
+        w.shown.about.empty() ? aboutPage(w.result.report.surface.kind, w.call.options.voxel)
+                              : w.shown.about,
+        w.shown.legend ? std::vector{*w.shown.legend}
+                       : offeredLegends(w.call.options.color, w.atoms, w.mesh, w.progress),
+        w.call.picture.plain,
+        viewAxes(w.mesh, view),
+        view.instances,
+        w.call.colorsCopies(),
+        w.coarser};
     if (w.atoms.names)
         nameAtoms(*w.atoms.names, placedBalls(w.call, w.atoms), w.mesh, w.progress, page);
+    colorCut(w.atoms, placedBalls(w.call, w.atoms), w.progress, page);
     writeHtml(w.mesh, page, file);
 }
 
@@ -436,8 +376,7 @@ std::vector<Format> areaFormats()
         {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
         {"pockets.csv", built, Areas | AllFrames, ofAreas, "pockets", writeAreaTable},
         {"pore.csv", built, Areas | AllFrames, ofAreas, "pore", writeAreaTable},
-        {"forces.csv", built, Areas | AllFrames, "derivatives of area and volume", "forces",
-         writeAreaTable},
+        {"forces.csv", built, Areas | AllFrames, "forces of atoms", "forces", writeAreaTable},
         {"pore.svg", built, Areas, ofPore, "pore",
          [](const Writing& w, OutputFile& file) { writeProfileSvg(*w.result.report.pore, file); }},
         {"pore.png", built, Areas, ofPore, "pore",
@@ -470,8 +409,9 @@ std::vector<Format> joined(std::vector<Format> first)
 const std::vector<Format>& formatTable()
 {
     constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
-    constexpr unsigned built = Build | Batch, meshed = built | Convert;
+    constexpr unsigned meshed = Build | Batch | Convert, seen = meshed | Compare;
     constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
+    constexpr unsigned film = Colors | PlainColor | Copies | Views | Pixels | Moving;
     static const std::vector<Format> table = joined(
         {{"vdb", all, Grids | Colors | SceneUnits, "level set and fields", "", writeGrids},
          {"ply", all, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
@@ -505,17 +445,20 @@ const std::vector<Format>& formatTable()
          {"charges.pqr", Build, Solver, "", "",
           [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
          {"apbs.in", Build, Solver, "", "", writeSolverInput},
-         {"cxc", meshed, Script | Colors | Copies, "scripts that open .glb and .ply", "",
+         {"cxc", meshed, Script | Colors | Copies, "scripts for .glb and .ply", "",
           writeScript<writeChimeraXScript>, "glb"},
-         {"pml", meshed, Script | Colors, "scripts that open .glb and .ply", "",
+         {"pml", meshed, Script | Colors, "scripts for .glb and .ply", "",
           writeScript<writePymolScript>, "ply"},
-         {"html", meshed, Colors | ColorChoices | PlainColor | Copies | Levels | Views,
-          "page that shows it", "", writePage},
+         {"html", seen, Colors | ColorChoices | PlainColor | Copies | Levels | Views, "page", "",
+          writePage},
          {"json", all, Numbers | Copies, "report", "",
           [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
-         {"png", meshed, Colors | PlainColor | Copies | Views | Pixels, "picture", "",
-          writePicture},
-         {"view", meshed, Copies | Views, "view of pictures, for --view", "", writeCamera},
+         {"png", seen, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
+         {"mp4", seen, film, "film", "", writeFilm},
+         {"webm", seen, film, "film", "", writeFilm},
+         {"gif", seen, film, "film", "", writeFilm},
+         {"legend.svg", seen, Colors | Copies, "legend", "", writeLegend},
+         {"view", seen, Copies | Views, "view for --view", "", writeCamera},
          {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
          {"pockets.vdb", Build, Shares | AllFrames, "", "", nullptr}});
     return table;
@@ -563,9 +506,8 @@ void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface&
             call.colorsCopies() ? instanceColors(atoms, progress) : std::vector<Color>(), progress);
     std::vector<const Mesh*> coarser;
     for (const Mesh& level : shown.coarser) coarser.push_back(&level);
-    output.format->write({call, atoms, result, output, progress, mesh, whole ? *whole : mesh,
-                          coarser, shown.borders},
-                         file);
+    output.format->write(
+        {call, atoms, result, output, progress, mesh, whole ? *whole : mesh, coarser, shown}, file);
 }
 
 } // namespace molsurf::tool

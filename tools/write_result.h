@@ -6,6 +6,7 @@
 
 #include "cli/call.h"
 
+#include "molsurf/color/legend.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/surface.h"
 
@@ -31,6 +32,8 @@ struct ShownMeshes {
     std::shared_ptr<const ColorOwners> borders{}; ///< between its colours; null: they have none
     std::optional<Mesh> crisp{};                  ///< the mesh, with these borders cut
     std::vector<Mesh> coarser{};                  ///< the further levels of detail of --lod
+    std::optional<Legend> legend{}; ///< of colours that no option names; none: by the options
+    std::string about{};            ///< what a page shows; empty: kind and voxels of the surface
 };
 
 /// What the files of the call show, but for `coarser`: borders are found once for all of them.

@@ -25,7 +25,7 @@ _vdb_molsurf()
         "build":--view) words="auto" ;;
         "build":--background) words="transparent" ;;
         "build":--style) words="soft glossy outline flat" ;;
-        "build":--show) words="sticks balls spheres tube" ;;
+        "build":--show) words="sticks balls orders spheres tube" ;;
         "build":--legend) words="auto on off" ;;
         "build":--regularizer) words="gradient area" ;;
         "build":--flow) words="rest newton paper" ;;
@@ -45,19 +45,23 @@ _vdb_molsurf()
         "batch":--view) words="auto" ;;
         "batch":--background) words="transparent" ;;
         "batch":--style) words="soft glossy outline flat" ;;
-        "batch":--show) words="sticks balls spheres tube" ;;
+        "batch":--show) words="sticks balls orders spheres tube" ;;
         "batch":--legend) words="auto on off" ;;
         "batch":--regularizer) words="gradient area" ;;
         "batch":--flow) words="rest newton paper" ;;
         "batch":--require) words="watertight manifold components= cavities= genus= min-angle=" ;;
-        "compare":--format) words="vdb ply json" ;;
+        "compare":--format) words="vdb ply html json png legend.svg view" ;;
         "compare":--color) words="distance signed-distance" ;;
         "compare":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "compare":--match) words="none ses" ;;
         "compare":--coarse) words="atom residue" ;;
+        "compare":--view) words="auto" ;;
+        "compare":--background) words="transparent" ;;
+        "compare":--style) words="soft glossy outline flat" ;;
+        "compare":--legend) words="auto on off" ;;
         "compare":--regularizer) words="gradient area" ;;
         "compare":--flow) words="rest newton paper" ;;
-        "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx cxc pml html json png view" ;;
+        "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx cxc pml html json png legend.svg view" ;;
         "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
         "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket" ;;
@@ -75,12 +79,12 @@ _vdb_molsurf()
         "bricks plan":--value-of) words="atom residue" ;;
         "bricks plan":--regularizer) words="gradient area" ;;
         "bricks plan":--flow) words="rest newton paper" ;;
-        "bricks merge":--format) words="vdb ply json" ;;
+        "bricks merge":--format) words="vdb ply html json png legend.svg view" ;;
     esac
     case $verb in
         "build") options="--output -o --format --force --skip-existing --select --model --assembly --instances --by-symmetry --weld --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --frames --trajectory --first-frame --fps --surface --voxel --lod --blobbiness --fill-cavities --walls --remesh --density --adapt --fields --vdb-half --curvature-totals --epsilon --match --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --crisp --areas --contacts --pockets --pocket-at --probe-in --probe-out --pocket-cut --pocket-neck --for --fog-density --center --print-scale --min-wall --apbs-grid --pdie --sdie --ion-conc --view --up --turn --size --background --plain-color --style --show --label --ruler --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --memory --max-hours --dry-run --require --threads -j --quiet -q --verbose -v --no-progress --config --list-radii --version -V --help -h --help-all" ;;
         "batch") options="--folder -O --formats --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --remesh --density --adapt --fields --vdb-half --curvature-totals --epsilon --match --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --areas --contacts --pockets --pocket-at --probe-in --probe-out --pocket-cut --pocket-neck --for --fog-density --center --print-scale --min-wall --view --up --turn --size --background --plain-color --style --show --label --ruler --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --require --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
-        "compare") options="--output -o --format --force --color --range --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --epsilon --match --resolution --coarse --match-volume --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
+        "compare") options="--output -o --format --force --color --range --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --epsilon --match --resolution --coarse --match-volume --view --up --turn --size --background --style --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
         "convert") options="--output -o --format --force --remesh --density --adapt --fields --range --palette --color --print-scale --view --up --turn --size --background --plain-color --style --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
         "bricks plan") options="--output -o --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fields --vdb-half --epsilon --match --resolution --coarse --groups --group-by --color --range --palette --value-of --flat-values --outward --lambda --regularizer --flow --steps --tolerance --bricks --memory --threads -j --quiet -q --no-progress --config --version -V --help -h --help-all" ;;
         "bricks run") options="--force --max-hours --threads -j --quiet -q --no-progress --version -V --help -h --help-all" ;;

@@ -24,7 +24,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--view") compadd -- 'auto'; return ;;
     "build:--background") compadd -- 'transparent'; return ;;
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
-    "build:--show") compadd -- 'sticks' 'balls' 'spheres' 'tube'; return ;;
+    "build:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube'; return ;;
     "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
@@ -44,19 +44,23 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--view") compadd -- 'auto'; return ;;
     "batch:--background") compadd -- 'transparent'; return ;;
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
-    "batch:--show") compadd -- 'sticks' 'balls' 'spheres' 'tube'; return ;;
+    "batch:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube'; return ;;
     "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "batch:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "batch:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
-    "compare:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
+    "compare:--format") compadd -- 'vdb' 'ply' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
     "compare:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "compare:--match") compadd -- 'none' 'ses'; return ;;
     "compare:--coarse") compadd -- 'atom' 'residue'; return ;;
+    "compare:--view") compadd -- 'auto'; return ;;
+    "compare:--background") compadd -- 'transparent'; return ;;
+    "compare:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
+    "compare:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
-    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'view'; return ;;
+    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket'; return ;;
@@ -74,7 +78,7 @@ case "$verb:$words[CURRENT-1]" in
     "bricks plan:--value-of") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "bricks plan:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
-    "bricks merge:--format") compadd -- 'vdb' 'ply' 'json'; return ;;
+    "bricks merge:--format") compadd -- 'vdb' 'ply' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
 esac
 if [[ $CURRENT == 3 && $words[2] == bricks ]]; then
     compadd -- plan run merge
@@ -166,6 +170,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--show:atoms beside the surface, whole and opaque, such as'
       '--label:a text at the middle of atoms, such as "A/57=active site";'
       '--ruler:a line between the middles of atoms with its length, such'
+      '--panel:a further picture beside the first, with its camera, scale'
       '--opacity:of the surface, seen from the front'
       '--all-walls:--opacity shows what is behind the nearest wall, too'
       '--clip:cuts away what is nearer to the eye than the middle'
@@ -173,7 +178,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--legend:on or off; auto\: beside colours, if 600 pixels wide'
       '--scale-bar:a bar below the picture that shows a length'
       '--dpi:pixels an inch when it is printed; --size stays'
-      '--turntable:N pictures round the upright\: name.0001.png, ...'
+      '--turntable:N pictures round the upright\: name.0001.png, ..., or in'
       '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--regularizer:gradient or area'
       '--flow:rest\: in closed form, where no front moves, else newton;'
@@ -274,7 +279,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--legend:on or off; auto\: beside colours, if 600 pixels wide'
       '--scale-bar:a bar below the picture that shows a length'
       '--dpi:pixels an inch when it is printed; --size stays'
-      '--turntable:N pictures round the upright\: name.0001.png, ...'
+      '--turntable:N pictures round the upright\: name.0001.png, ..., or in'
       '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--regularizer:gradient or area'
       '--flow:rest\: in closed form, where no front moves, else newton;'
@@ -326,6 +331,20 @@ if [[ $words[CURRENT] == -* ]]; then
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
       '--match-volume:resolutions keep the volume of the fine surface'
+      '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
+      '--up:what is upright, such as 0,0,1 of a membrane'\''s normal;'
+      '--turn:turned by so many degrees about the upright'
+      '--size:width in pixels; the height follows the shape'
+      '--background:as #rrggbb or #rgb, a name such as black, or transparent'
+      '--style:soft; glossy\: with highlights; outline\: as drawn with a'
+      '--opacity:of the surface, seen from the front'
+      '--all-walls:--opacity shows what is behind the nearest wall, too'
+      '--clip:cuts away what is nearer to the eye than the middle'
+      '--depth-cue:distant parts fade to the background'
+      '--legend:on or off; auto\: beside colours, if 600 pixels wide'
+      '--scale-bar:a bar below the picture that shows a length'
+      '--dpi:pixels an inch when it is printed; --size stays'
+      '--turntable:N pictures round the upright\: name.0001.png, ..., or in'
       '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--regularizer:gradient or area'
       '--flow:rest\: in closed form, where no front moves, else newton;'
@@ -375,7 +394,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--legend:on or off; auto\: beside colours, if 600 pixels wide'
       '--scale-bar:a bar below the picture that shows a length'
       '--dpi:pixels an inch when it is printed; --size stays'
-      '--turntable:N pictures round the upright\: name.0001.png, ...'
+      '--turntable:N pictures round the upright\: name.0001.png, ..., or in'
       '--max-hours:refuse what is estimated to take more hours'
       '--dry-run:say what it takes, and stop'
       '--threads:threads at most'

@@ -14,7 +14,7 @@ from vdb_molsurf import _options
 # Options of `build` that set no member of the library's options: files, frames, pictures, the run.
 COMMAND_LINE = {"output", "format", "force", "weld", "frames", "first-frame", "fps", "fog-density", "trajectory", "update-selections", "lod", "groups", "crisp", "walls", "areas",
                 "contacts", "for", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale", "min-wall", "view", "up", "turn", "size", "background", "plain-color",
-                "depth-cue", "legend", "turntable", "scale-bar", "dpi", "style", "opacity", "all-walls", "clip", "show", "label", "ruler", "memory", "max-hours",
+                "depth-cue", "legend", "turntable", "scale-bar", "dpi", "style", "opacity", "all-walls", "clip", "show", "label", "ruler", "panel", "memory", "max-hours",
                 "dry-run", "require", "skip-existing", "threads", "quiet", "verbose", "no-progress", "config", "help", "help-all", "version", "list-radii"}
 
 

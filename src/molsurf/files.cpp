@@ -139,6 +139,7 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
             for (std::int32_t& ball : page.ballOf)
                 if (ball >= 0) ball = std::int32_t(whole.sources[std::size_t(ball)]);
         }
+        colorCut(atoms, whole.balls, nobody, page);
         writeHtml(mesh, page, file);
     } else {
         const bool repeats = !atoms.placement.isWhole();

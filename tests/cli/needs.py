@@ -76,6 +76,7 @@ NEEDS = {
     "bpy": (lambda: runs(BPY_PYTHON, "-c", "import bpy"), "pip install bpy, and BPY_PYTHON=<that Python>"),
     "apbs": (program("apbs"), "scripts/install_deps.sh apbs"),
     "chromium": (lambda: CHROMIUM, "scripts/install_deps.sh chromium"),
+    "ffmpeg": (program("ffmpeg"), "scripts/install_deps.sh ffmpeg"),
     "fish": (program("fish"), "scripts/install_deps.sh fish"),
     "freesasa": (program("freesasa"), "scripts/install_deps.sh freesasa"),
     "gltf-validator": (

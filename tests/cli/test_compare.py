@@ -9,7 +9,7 @@ import sys
 import unittest
 
 from needs import needs
-from tool import CRAMBIN, ToolTest, read_ply
+from tool import CRAMBIN, ToolTest, read_ply, read_png
 
 # One atom each. The surface of one atom is a sphere about it, a little larger than the atom.
 LARGE, SMALL, SHIFTED = (0.13, 0.29, 0.41, 4.0), (0.53, -0.01, 0.91, 1.5), (0.83, 0.09, 0.71, 4.0)
@@ -244,7 +244,7 @@ class WrongCalls(CompareTest):
         self.refuse("", "a.ply", says="empty word")
 
     def test_outputs(self):
-        for name in ("a.obj", "a.stl", "a.png", "a.glb"):
+        for name in ("a.obj", "a.stl", "a.usda", "a.glb"):
             self.refuse("a.ply", "b.ply", "-o", name, says=name)
         self.refuse("a.ply", "b.ply", "--format", "ply", says="-o -")
 
@@ -312,6 +312,32 @@ class BadFiles(CompareTest):
     def test_a_folder(self):
         (self.folder / "a.ply").mkdir()
         self.refuse("a.ply", None, ["folder"])
+
+
+class Pictures(CompareTest):
+    def test_distance_is_drawn(self):
+        """A cube moved by 2 along x: red where it is outside of the other, in the picture and its legend."""
+        self.cube("a.obj", (2, 0, 0))
+        self.cube("b.obj")
+        words = ["compare", "a.obj", "b.obj", "--color", "signed-distance", "--range", "2", "--style", "flat", "--size", "600"]
+        red, white = (178, 24, 43), (255, 255, 255)
+        for way, share in (("1,0,0", 0.3), ("-1,0,0", 0)):  # one side is 2 away, the other touches
+            self.check(0, *words, "--view", way, "-o", "a.png", "-o", "a.legend.svg", "-o", "a.html", "--force")
+            width, rows = read_png((self.folder / "a.png").read_bytes())
+            pixels = [[tuple(row[3 * x:3 * x + 3]) for x in range(width)] for row in rows]
+            shown = [p for row in pixels for p in row[:400] if p != white]
+            self.assertGreaterEqual(sum(p == red for p in shown), share * len(shown), way)
+            self.assertEqual(any(p == red for p in shown), share > 0)
+            legend = {p for row in pixels for p in row[450:]}
+            self.assertLess(min(math.dist(p, red) for p in legend), 4)
+        page = (self.folder / "a.html").read_text()
+        self.assertIn("Signed distance", page)
+        self.assertIn("Distances from b", page)
+        self.assertIn("Signed distance", (self.folder / "a.legend.svg").read_text())
+        self.check(0, *words, "--turntable", "2", "--legend", "off", "-o", "t.png")
+        self.assertTrue((self.folder / "t.0002.png").exists())
+        self.check(0, "compare", "a.obj", "b.obj", "--size", "100", "-o", "c.ply", says="--size is for .png")
+        self.check(2, "compare", "a.obj", "b.obj", "-o", "c.mp4", says="expected --turntable")
 
 
 if __name__ == "__main__":

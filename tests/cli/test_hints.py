@@ -124,6 +124,8 @@ FILES = {
     "tube.xyzr": xyzr(TUBE), "cage.xyzr": xyzr(CAGE), "list.txt": "one.xyzr\n", "junk.csv": "junk\n",
 }
 FAST = "--voxel 1 --surface sas"
+# A program in the place of ffmpeg, since a machine may have none.
+FFMPEG = r"""printf '#!/bin/sh\nfor w; do f=$w; done; cat > "${f#file:}"\n' > ffmpeg; chmod +x ffmpeg; PATH=.:$PATH"""
 PLAN = f"vdb_molsurf bricks plan 1crn.pdb --voxel 1 --bricks 2 -o plan.json -q"
 RUN = "vdb_molsurf bricks run plan.json 1 -q; vdb_molsurf bricks run plan.json 2 -q"
 MERGE = "vdb_molsurf bricks merge plan.json -o a.vdb"
@@ -427,6 +429,8 @@ CASES = {
         ("-o x.vdb, -o x.json; --help lists the formats", "vdb_molsurf 1crn.pdb -o x",
          f"vdb_molsurf 1crn.pdb {FAST} -o x.vdb", f"vdb_molsurf 1crn.pdb {FAST} -o x.json", "vdb_molsurf --help | grep .ply"),
         (".png; --help lists the formats", "vdb_molsurf 1crn.pdb -o x.pdf", f"vdb_molsurf 1crn.pdb {FAST} -o x.png"),
+        (".mp4; --help lists the formats", "vdb_molsurf 1crn.pdb -o x.avi --turntable 2",
+         f"{FFMPEG} vdb_molsurf one.xyzr {FAST} -o x.mp4 --turntable 2"),
         ("--help lists the formats", "vdb_molsurf 1crn.pdb -o x.qqqqq", "vdb_molsurf --help | grep .ply"),
         ("vdb_molsurf batch list.txt -O surfaces", "vdb_molsurf batch", "vdb_molsurf batch list.txt -O surfaces"),
         ("-O DIR", "vdb_molsurf batch list.txt", "vdb_molsurf batch list.txt -O DIR"),
@@ -443,7 +447,15 @@ CASES = {
          "vdb_molsurf bricks run plan.json 1"),
         ("vdb_molsurf bricks merge plan.json -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge",
          "vdb_molsurf bricks merge plan.json -o surface.vdb")],
+    "picture/legend_svg.cpp": [
+        ("--color chain", f"vdb_molsurf 1crn.pdb {FAST} -o a.legend.svg", f"vdb_molsurf 1crn.pdb {FAST} --color chain -o a.legend.svg")],
+    "tools/film.cpp": [
+        ("-o NAME.png writes the pictures one by one", f"PATH=/none $(command -v vdb_molsurf) one.xyzr {FAST} -o x.mp4 --turntable 2",
+         f"vdb_molsurf one.xyzr {FAST} -o x.png --turntable 2"),
+        ("-o NAME.png writes the pictures one by one", f"ln -sf /bin/false ffmpeg; PATH=.:$PATH vdb_molsurf one.xyzr {FAST} -o x.mp4 --turntable 2",
+         f"vdb_molsurf one.xyzr {FAST} --force -o x.png --turntable 2")],
     "tools/cli/pair_table.cpp": [
+        ("--turntable 100", f"{FFMPEG} vdb_molsurf one.xyzr {FAST} -o y.mp4", f"{FFMPEG} vdb_molsurf one.xyzr {FAST} --size 60 -o y.mp4 --turntable 100"),
         ("--surface smooth-sas", "vdb_molsurf 1crn.pdb --surface gaussian -o a.forces.csv",
          "vdb_molsurf 1crn.pdb --surface smooth-sas -o a.forces.csv"),
         ("--lambda 0.02, without --flow and --steps",

@@ -128,6 +128,11 @@ class Page(ToolTest):
         return box, {y: [x for x in range(left, right) if tuple(rows[y][3 * x:3 * x + 3]) != (255, 255, 255)]
                      for y in range(top, bottom)}
 
+    def pixels(self, page):
+        page.picture(self.folder / "p.png")
+        width, rows = read_png((self.folder / "p.png").read_bytes())
+        return [[tuple(row[3 * x:3 * x + 3]) for x in range(width)] for row in rows]
+
     @needs("chromium")
     def test_the_mouse_learns_names(self):
         """At the left end of the surface stands the atom that has the vertex farthest to the left."""
@@ -274,6 +279,25 @@ class Page(ToolTest):
                 if max(rates) < 60:  # with a card it turns as it is
                     self.assertLess(turning, triangles)
                 self.assertGreater(max(rates), 30 if idle else 1, (opacity, rates))  # beside other work: at all
+            self.assertEqual(browser.console, [])
+
+    @needs("chromium")
+    def test_a_cut_has_the_colours_of_what_is_cut(self):
+        """Exactly those of the legend, as pictures have them; of curvature it is grey."""
+        self.check(0, DATA / "4at1.ent.gz", "--voxel", "1", "--color", "chain", "-o", "a.html")
+        with self.opened((900, 600)) as browser:
+            self.ready(browser)
+            browser.evaluate(f"{{ {slid('clip', 0.5)} }} 0")
+            self.ready(browser)
+            rows = self.pixels(browser)
+            for color in ((86, 180, 233), (230, 159, 0), (0, 158, 115), (204, 121, 167)):
+                near = sum(max(abs(a - b) for a, b in zip(p, color)) < 3 for row in rows for p in row)
+                self.assertGreater(near, 3000, color)
+            browser.evaluate("{ const c = document.getElementById('mode'); c.value = 1; "
+                             "c.dispatchEvent(new Event('change')); } 0")
+            self.ready(browser)
+            grey = sum(max(abs(a - b) for a, b in zip(p, (0xb9, 0xbe, 0xc6))) < 3 for row in self.pixels(browser) for p in row)
+            self.assertGreater(grey, 12000)
             self.assertEqual(browser.console, [])
 
     @needs("chromium")

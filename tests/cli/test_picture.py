@@ -4,6 +4,7 @@
 import json
 import os
 import unittest
+import xml.etree.ElementTree
 
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply, read_png
 
@@ -305,6 +306,29 @@ class Pictures(ToolTest):
             far = sum(max(abs(a - b) for a, b in zip(p, q)) > 40
                       for one, other in zip(there[1], centred[1]) for p, q in zip(one, other))
             self.assertLess(far, 0.01 * 200 * len(there[1]))
+
+    def test_legends_as_svg(self):
+        """All names and colours, with text as text; of values a bar from low to high."""
+        space = "{http://www.w3.org/2000/svg}"
+
+        def drawing(*words):
+            self.check(0, *words, "-o", "a.legend.svg", "--force")
+            return xml.etree.ElementTree.fromstring((self.folder / "a.legend.svg").read_text())
+
+        (self.folder / "g").write_text("A&B_<1> /1/A/1-20 #d00000\nlast /1/A/21-46 #0000d0\n")
+        root = drawing(CRAMBIN, *FAST, "--groups", "g", "--color", "group", "--size", "100", "--show", "A//SG=spheres")
+        self.assertEqual([e.text for e in root.iter(space + "text")], ["Group", "A&B_<1>", "last", "Element", "S"])
+        self.assertEqual([e.get("fill") for e in root.iter(space + "rect")][:2], ["#d00000", "#0000d0"])
+        root = drawing(CRAMBIN, *FAST, "--color", "mean-curvature", "--range=-0.5,0.5", "--background", "black", "--legend", "off")
+        self.assertEqual([e.text for e in root.iter(space + "text")], ["Mean curvature", "[1/Å]", "0.50", "0", "−0.50"])
+        self.assertGreater(int(root.get("fill")[1:3], 16), 200)
+        stops = [(float(e.get("offset")), e.get("stop-color")) for e in root.iter(space + "stop")]
+        self.assertEqual((stops[0], stops[-1]), ((0, "#2166ac"), (1, "#b2182b")))
+        root = drawing(CRAMBIN, *FAST, "--color", "bfactor", "--palette", "plddt")  # steps
+        offsets = [e.get("offset") for e in root.iter(space + "stop")]
+        self.assertGreater(len(offsets), len(set(offsets)))
+        self.check(1, CRAMBIN, *FAST, "-o", "b.legend.svg", says="expected colours for a legend")
+        self.assertFalse((self.folder / "b.legend.svg").exists())
 
     def test_turntable(self):
         self.check(0, CRAMBIN, *FAST, "-o", "a.png", "-o", "a.ply", "--turntable", "4", "--size",

@@ -12,6 +12,7 @@ import shlex
 import subprocess
 import unittest
 
+from needs import lacks
 from tool import ROOT, TOOL, ToolTest
 
 README = ROOT / "README.md"
@@ -43,7 +44,7 @@ def promised(block):
     files = [after for word, after in zip(words, words[1:]) if word in ("-o", ">", "2>")]
     if "--frames" in words:
         first = int(words[words.index("--first-frame") + 1]) if "--first-frame" in words else 1
-        files = [re.sub(r"\.(?!csv$)(\w+)$", rf".{first:04}.\1", name) for name in files]
+        files = [re.sub(r"\.(?!(?:csv|gif|mp4|webm)$)(\w+)$", rf".{first:04}.\1", name) for name in files]
     return [name for name in files if name != "-"]
 
 
@@ -127,6 +128,8 @@ class Readme(ToolTest):
         for block in commands:
             with self.subTest(block):
                 self.assertRegex(block, r"\bvdb_molsurf(_msms|_nanoshaper)? ")
+                if re.search(r"\.(gif|mp4|webm)\b", block) and lacks("ffmpeg"):
+                    continue
                 done = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", block],
                                       cwd=self.folder, env={**os.environ, "PATH": path},
                                       capture_output=True, text=True, timeout=300)

@@ -121,11 +121,11 @@ class WrongCalls(ToolTest):
         self.refuse("bricks", says="plan, run, merge")
 
     def test_options_of_other_verbs(self):
-        self.refuse("compare", CRAMBIN, CRAMBIN, "--turn", "5", says="--turn is for build, batch, convert")
+        self.refuse("compare", CRAMBIN, CRAMBIN, "--show", "sticks", says="--show is for build, batch")
         self.refuse("bricks", "plan", CRAMBIN, "-o", "p.json", "--bricks", 2, "--split", "group",
                     says="--split is for build, batch, not for bricks plan")
         self.refuse("info", "-q", CRAMBIN, says="-q")
-        for verb, option in (("compare", "--turn"), ("convert", "--probe"), ("batch", "--frames")):
+        for verb, option in (("compare", "--show"), ("convert", "--probe"), ("batch", "--frames")):
             self.assertNotIn(option.encode(), self.check(0, verb, "--help").stdout)
 
     def test_a_surface_is_no_structure(self):
@@ -231,7 +231,7 @@ class Information(ToolTest):
         self.check(2, "help", "bricks", "plam", says="did you mean plan?")
 
     def test_options_that_change_nothing_say_so(self):
-        for option, output, are in ((["--plain-color", "red"], "a.ply", ".glb, .usda, .html and .png"),
+        for option, output, are in ((["--plain-color", "red"], "a.ply", ".glb, .usda, .html, .png, .mp4, .webm and .gif"),
                                     (["--depth-cue"], "a.html", ".png"), (["--vdb-half"], "a.ply", ".vdb"),
                                     (["--curvature-totals"], "a.ply", ".json"),
                                     (["--crisp", "--color", "chain"], "a.vdb", ".ply, .obj, .off, "),

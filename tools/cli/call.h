@@ -30,6 +30,12 @@ class OutputFile;
 
 namespace molsurf::tool
 {
+class Film;
+struct PanelSurface;
+} // namespace molsurf::tool
+
+namespace molsurf::tool
+{
 
 // The formats of output files, a row each: the words of the command line, its help, what a verb
 // writes, what a file cannot show, and the writers come from it.
@@ -58,7 +64,8 @@ enum Holds : unsigned {
     Paint = 1 << 20,            ///< colours of triangles for slicers, of which there are few
     Script = 1 << 19,           ///< what opens another file of the run
     Solver = 1 << 21,           ///< what APBS reads
-    Shares = 1 << 22            ///< shares of frames, on voxels
+    Shares = 1 << 22,           ///< shares of frames, on voxels
+    Moving = 1 << 23            ///< the pictures of a turntable or of frames in one film
 };
 
 /// What a file is written of, and how.
@@ -104,11 +111,18 @@ enum Verb : unsigned {
 struct Output {
     std::string path; ///< "-" is standard output
     const Format* format;
-    std::string beside{}; ///< of a Stage: the .vdb that it shows, or the .usda of a frame
-    double turn = 0.0;    ///< of a picture of a turntable, beside that of all [degree]
+    std::string beside{};         ///< of a Stage: the .vdb that it shows, or the .usda of a frame
+    double turn = 0.0;            ///< of a picture of a turntable, beside that of all [degree]
+    std::shared_ptr<Film> film{}; ///< of all frames, which gets a picture of each; null: none
 
     /// Whether it holds one of these.
     bool holds(unsigned some) const { return (format->holds & some) != 0; }
+};
+
+/// A further picture beside the first one.
+struct Panel {
+    std::string file;          ///< of another structure; empty: the same from somewhere else
+    openvdb::Vec3d toEye{0.0}; ///< the direction of that
 };
 
 /// The values of the options that were given, by name; in the order of the command line if one was
@@ -160,6 +174,7 @@ struct Call : Settings {
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none
     std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
     std::vector<NoteRule> notes; ///< labels and rulers of pictures
+    std::vector<Panel> panels;   ///< of pictures, beside the first one
     LegendChoice legend = LegendChoice::Auto;
     bool scaleBar = false;    ///< a bar of lengths below pictures
     int turntable = 0;        ///< number of pictures; 0: one
@@ -181,6 +196,8 @@ struct Call : Settings {
     std::string inputSha256, identity; ///< as tools/identity.h has them; empty: not known yet
     std::size_t brick = 0;             ///< BricksRun: its number, from 1
     std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
+    /// Of `panels` with a file; null: they are not made yet.
+    std::shared_ptr<const std::vector<PanelSurface>> panelSurfaces;
     int frame = 0;                     ///< the number of the one that is built; 0: none is
     std::vector<std::string> warnings; ///< one line each
     /// Of the files in the folders of frames.

@@ -85,8 +85,9 @@ bool isFolder(const std::string& path)
                path + "." + known.front() + ", -o " + path + ".json; --help lists the formats]");
     std::string hint = didYouMean(word, known);
     for (const auto& [others, ours] :
-         {std::pair("pdf jpg jpeg svg tif tiff gif eps webp bmp", "png"),
-          std::pair("gltf fbx dae blend abc", "glb"), std::pair("step stp gcode amf", "3mf")}) {
+         {std::pair("pdf jpg jpeg svg tif tiff eps webp bmp", "png"),
+          std::pair("avi mov mkv mpg mpeg m4v", "mp4"), std::pair("gltf fbx dae blend abc", "glb"),
+          std::pair("step stp gcode amf", "3mf")}) {
         const std::vector<std::string>& words = wordsOf(others);
         const Format* format = findFormat(ours);
         if (std::count(words.begin(), words.end(), word) > 0 && (format->verbs & call.verb))
@@ -240,12 +241,12 @@ void checkUpright(const Call& call)
         misuse("--up: expected a direction across that of --view, got the same");
 }
 
-// Puts the frames of a turntable in the place of each picture.
+// Puts the frames of a turntable in the place of each picture; a film holds all of its own.
 void addTurntable(Call& call)
 {
     std::vector<Output> outputs;
     for (const Output& output : call.outputs) {
-        if (!output.holds(Pixels)) {
+        if (!output.holds(Pixels) || output.holds(Moving)) {
             outputs.push_back(output);
             continue;
         }
@@ -472,8 +473,11 @@ void completeCompare(Call& call)
         if (file.empty()) misuse("compare: expected the name of a file, got an empty word");
     if (call.inputs[0] == "-" && call.inputs[1] == "-")
         misuse("compare: - - : standard input can be only one of the two");
+    call.input = call.inputs[0];
     call.outputs = outputsOf(call);
     completeSurface(call);
+    if (call.turntable > 0) addTurntable(call);
+    warnOfLosses(call);
 }
 
 void completeConvert(Call& call)

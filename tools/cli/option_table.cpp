@@ -257,7 +257,7 @@ Values formatsOf(unsigned verb)
 {
     Values words;
     for (const Format& format : formatTable())
-        if ((format.verbs & verb) && (format.holds & (Stage | FrameRows)) == 0)
+        if ((format.verbs & verb) && (format.holds & (Stage | FrameRows | Moving)) == 0)
             words.push_back(format.word);
     return words;
 }
@@ -594,6 +594,31 @@ Option showOption()
     return show;
 }
 
+Option panelOption()
+{
+    Option panel{"panel",
+                 0,
+                 "WHAT",
+                 "a further picture beside the first, with its camera, scale\n"
+                 "and legend: the FILE of another structure, or the same one\n"
+                 "from X,Y,Z; repeats",
+                 "",
+                 Build};
+    panel.repeats = true;
+    panel.file = [](const std::string& value) {
+        return directionOf(value) ? std::string::npos : std::size_t(0);
+    };
+    panel.set = [](Call& call, const Values& values) {
+        for (const std::string& value : values) {
+            const auto way = directionOf(value);
+            if (value.empty() || (way && !(way->length() > 0.0 && std::isfinite(way->length()))))
+                wrongValue("panel", "a file or a direction X,Y,Z that is not 0", value);
+            call.panels.push_back(way ? Panel{"", *way} : Panel{value});
+        }
+    };
+    return shownIn(Pixels, panel);
+}
+
 /// An option that adds to the notes of pictures.
 Option noteOption(const char* name, const char* argument, const char* help,
                   NoteRule (*parse)(const std::string& text))
@@ -638,7 +663,7 @@ Option uprightOption(unsigned verbs)
 
 OptionGroup pictureOptions()
 {
-    constexpr unsigned draw = wholes | Convert;
+    constexpr unsigned draw = wholes | Convert | Compare;
     Option view{"view",
                 0,
                 "FROM",
@@ -657,7 +682,8 @@ OptionGroup pictureOptions()
                       "#ffffff",      draw,
                       {"transparent"}};
     background.set = setBackground;
-    Option plain{"plain-color", 0, "COLOR", "of a surface without --color", "#8cb5de", draw};
+    Option plain{"plain-color",   0, "COLOR", "of a surface without --color", "#8cb5de",
+                 wholes | Convert};
     plain.set = [](Call& call, const Values& values) {
         call.picture.plain = colorValue("plain-color", "", values.back());
     };
@@ -677,7 +703,7 @@ OptionGroup pictureOptions()
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
                                draw, 16, 16384, MOLSURF_OF(picture.width))),
          shownIn(Pixels, background), shownIn(PlainColor, plain), shownIn(Pixels, style),
-         shownIn(Pixels, showOption()), labelOption(), rulerOption(),
+         shownIn(Pixels, showOption()), labelOption(), rulerOption(), panelOption(),
          shownIn(Pixels, number("opacity", "O", "of the surface, seen from the front", "1", draw,
                                 0.01, 1.0, "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
          shownIn(Pixels, flag("all-walls", "--opacity shows what is behind the nearest wall, too",
@@ -699,7 +725,9 @@ OptionGroup pictureOptions()
          shownIn(Pixels,
                  number("dpi", "N", "pixels an inch when it is printed; --size stays", "", draw,
                         1.0, 10000.0, "a number from 1 to 10000", MOLSURF_OF(picture.dpi))),
-         shownIn(Pixels, count("turntable", "N", "N pictures round the upright: name.0001.png, ...",
+         shownIn(Pixels, count("turntable", "N",
+                               "N pictures round the upright: name.0001.png, ..., or in\na film, "
+                               "such as name.mp4",
                                "", draw, 2, 9999, MOLSURF_OF(turntable)))}};
 }
 

@@ -157,7 +157,8 @@ std::vector<Pair> surfacePairs()
     const auto ofValues = [](const char* option) {
         return Pair{option, IsFor, {}, "--color by a value or a curvature", [](const Call& call) {
                         const ColorBy by = call.options.color;
-                        return call.atoms.valueBy || kindOf(by).ofCurvature ||
+                        return call.verb == Compare || call.atoms.valueBy ||
+                               kindOf(by).ofCurvature ||
                                (call.verb == Convert && by == ColorBy::Nothing);
                     }};
     };
@@ -179,7 +180,11 @@ std::vector<Pair> surfacePairs()
          ": a resolution for all atoms says how smooth it is, too",
          unlessAll},
         {"match-volume", IsFor, {"resolution"}},
-        {"legend", IsFor, {"color"}, "", [](const Call& call) { return call.verb == Convert; }},
+        {"legend",
+         IsFor,
+         {"color"},
+         "",
+         [](const Call& call) { return (call.verb & (Convert | Compare)) != 0; }},
         {"all-walls", IsFor, {"opacity"}},
         ofValues("range"),
         ofValues("palette"),
@@ -215,7 +220,11 @@ std::vector<Pair> runPairs()
         {"frames", Excludes, notOfFrames},
         {"trajectory", Excludes, notOfFrames},
         {"model", Excludes, {"frames"}, ": frames are models [hint: --trajectory]", fromModels},
-        {"fps", Needs, {"frames", "trajectory"}},
+        {"fps",
+         Needs,
+         {"frames", "trajectory", {Moving, "", "-o FILE.mp4"}},
+         "",
+         [](const Call& call) { return call.outputs.empty(); }},
         {"first-frame", Needs, {"frames", "trajectory"}},
         {"update-selections", Needs, {"frames", "trajectory"}},
         {"update-selections", Excludes, {"fields=v"}, ": its atoms have to be those of all frames"},
@@ -224,6 +233,12 @@ std::vector<Pair> runPairs()
         {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},
         {"turntable", Excludes, {"output=-"}},
+        {"panel", Excludes, {"frames", "trajectory", "memory", "dry-run", "center"}},
+        {{Moving},
+         Needs,
+         {"turntable", "frames", "trajectory"},
+         ": a film has several pictures [hint: --turntable 100]"},
+        {{Moving}, Excludes, {"background=transparent"}, ": films are opaque"},
         {"require",
          Excludes,
          {"frames", "trajectory", "memory", "dry-run", "instances", "by-symmetry"}},

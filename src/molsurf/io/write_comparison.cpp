@@ -186,7 +186,7 @@ void chooseColors(bool bySign, double range, ComparisonReport& report)
     report.color = bySign ? scaleOf("RdBu", -end, end) : scaleOf("viridis", 0.0, end);
 }
 
-void writeComparisonMesh(const Mesh& a, const ComparisonReport& report, OutputFile& file)
+Mesh comparisonMesh(const Mesh& a, const ComparisonReport& report)
 {
     const Comparison::OneWay& there = report.distances.aToB;
     const bool bySign = report.shown == "signed_distance";
@@ -196,7 +196,23 @@ void writeComparisonMesh(const Mesh& a, const ComparisonReport& report, OutputFi
     mesh.scalars.insert(mesh.scalars.begin(), {"distance", there.distance});
     if (!there.signedDistance.empty())
         mesh.scalars.insert(mesh.scalars.begin() + 1, {"signed_distance", there.signedDistance});
-    writePly(mesh, file, colorComments(report));
+    return mesh;
+}
+
+Legend comparisonLegend(const ComparisonReport& report)
+{
+    const bool bySign = report.shown == "signed_distance";
+    return {bySign ? "Signed distance" : "Distance",
+            bySign ? "signed-distance" : "distance",
+            report.shown,
+            "\xC3\x85",
+            report.color,
+            {}};
+}
+
+void writeComparisonMesh(const Mesh& a, const ComparisonReport& report, OutputFile& file)
+{
+    writePly(comparisonMesh(a, report), file, colorComments(report));
 }
 
 } // namespace molsurf

@@ -5,6 +5,7 @@
 /// The report of a comparison, as JSON and as lines to read.
 
 #include "molsurf/color/color_map.h"
+#include "molsurf/color/legend.h"
 #include "molsurf/compare.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
@@ -60,6 +61,12 @@ std::string comparisonTable(const ComparisonReport& report);
 /// @param[in] bySign  whether they show the signed distance
 /// @param[in] range   distance at the end of the colours [Å]; 0: that of 99 % of the vertices
 void chooseColors(bool bySign, double range, ComparisonReport& report);
+
+/// The mesh of A with the distances of its vertices from B, and their colours.
+Mesh comparisonMesh(const Mesh& a, const ComparisonReport& report);
+
+/// What these colours mean.
+Legend comparisonLegend(const ComparisonReport& report);
 
 /// Writes the mesh of A with the distances of its vertices from B, and their colours, as .ply. A
 /// comment in the file tells the scale.

@@ -47,19 +47,19 @@ RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, st
 RTCScene RayScene::sceneOf(const Mesh& mesh, std::size_t first, std::size_t end)
 {
     const RTCScene scene = rtcNewScene(device_);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // no ray slips through between triangles
+    // No ray slips through between triangles.
+    rtcSetSceneFlags(scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree reads 16 bytes at the last vertex too, so it gets buffers of its own.
     void* positions =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 sizeof(openvdb::Vec3f), mesh.positions.size());
-    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                              3 * sizeof(std::uint32_t), end - first);
-    if (positions && triangles) {
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.triangles.data(), first * sizeof(mesh.triangles[0]),
+                               sizeof(mesh.triangles[0]), end - first);
+    if (positions) {
         std::memcpy(positions, mesh.positions.data(),
                     mesh.positions.size() * sizeof(openvdb::Vec3f));
-        std::memcpy(triangles, mesh.triangles.data() + first,
-                    (end - first) * 3 * sizeof(std::uint32_t));
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
     }

@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 namespace molsurf
 {
@@ -76,41 +78,97 @@ void addStick(const Vec3d& from, const Vec3d& to, double radius, const Color& co
     model.instances.push_back(stick);
 }
 
-/// The bonds of the residues of atoms.
-class BondTable
+/// The bonds that tables and files know of atoms.
+class KnownBonds
 {
 public:
-    explicit BondTable(const BallNames& names) : names_(names)
+    explicit KnownBonds(const ShownAtoms& shown) : names_(*shown.atoms.names)
     {
-        for (const BallNames::Residue& residue : names.residues)
-            rows_.push_back(ResidueBonds::find(residue.name));
+        for (const BallNames::Residue& residue : names_.residues) {
+            const ResidueBonds* row = ResidueBonds::find(residue.name);
+            if (shown.bonds && shown.bonds->residues.count(residue.name) > 0)
+                row = &shown.bonds->residues.at(residue.name);
+            rows_.push_back(row);
+        }
+        if (shown.bonds && !shown.bonds->links.empty()) addLinks(shown);
     }
 
-    /// Whether two atoms are bonded; nothing: they are of two residues, or the table has no such
-    /// atoms.
-    std::optional<bool> bonded(std::size_t i, std::size_t j) const
+    /// The bond of two atoms; nothing: neither the table nor the file knows of it.
+    std::optional<BondOrder> between(std::size_t i, std::size_t j) const
     {
         const std::int32_t residue = names_.residueOf[i];
         const ResidueBonds* row = rows_[std::size_t(residue)];
         const std::string &a = names_.atoms[i].name, &b = names_.atoms[j].name;
-        if (names_.residueOf[j] != residue || !row || !row->has(a) || !row->has(b)) return {};
-        return row->bonded(a, b);
+        const bool inside = names_.residueOf[j] == residue;
+        if (inside && row && row->has(a) && row->has(b)) return row->between(a, b);
+        if (linked_.empty()) return {};
+        const auto link = linked_.find({std::min(i, j), std::max(i, j)});
+        if (link != linked_.end()) return link->second;
+        if (inside && whole_[std::size_t(residue)]) return BondOrder::None;
+        return {};
     }
 
 private:
+    /// The chain of the file, and which copy of it: "A-2" is the second one of A.
+    static std::pair<std::string, std::string> copyOf(const std::string& chain)
+    {
+        const std::size_t dash = chain.rfind('-');
+        if (dash == std::string::npos || dash == 0) return {chain, ""};
+        return {chain.substr(0, dash), chain.substr(dash)};
+    }
+
+    void addLinks(const ShownAtoms& shown)
+    {
+        std::map<FileBonds::End, std::vector<std::size_t>> ends; // by names in the file
+        for (const FileBonds::Link& link : shown.bonds->links) ends[link.a], ends[link.b];
+        std::vector<char> linked(names_.atoms.size(), 0);
+        for (std::size_t i = 0; i < names_.atoms.size(); ++i) {
+            const BallNames::Residue& residue = names_.residues[std::size_t(names_.residueOf[i])];
+            for (const std::string& chain :
+                 {residue.labelChain, copyOf(residue.labelChain).first}) {
+                const auto found =
+                    ends.find({chain, residue.number, residue.insertionCode, names_.atoms[i].name});
+                if (found == ends.end()) continue;
+                found->second.push_back(i);
+                linked[i] = 1;
+                break;
+            }
+        }
+        const auto chainOf = [&](std::size_t i) {
+            return copyOf(names_.residues[std::size_t(names_.residueOf[i])].labelChain).second;
+        };
+        for (const FileBonds::Link& link : shown.bonds->links)
+            for (const std::size_t i : ends[link.a])
+                for (const std::size_t j : ends[link.b])
+                    if (i != j && chainOf(i) == chainOf(j))
+                        linked_[{std::min(i, j), std::max(i, j)}] = link.order;
+        whole_.assign(names_.residues.size(), 1);
+        for (std::size_t i = 0; i < linked.size(); ++i)
+            if (!linked[i]) whole_[std::size_t(names_.residueOf[i])] = 0;
+    }
+
     const BallNames& names_;
     std::vector<const ResidueBonds*> rows_; ///< of residues; null: it has none
+    std::map<std::pair<std::size_t, std::size_t>, BondOrder> linked_; ///< by the file, i < j
+    std::vector<char> whole_; ///< residues whose atoms are all linked: they have no other bonds
 };
 
-/// Pairs of atoms that the table of residues joins, and of others those as near as their covalent
-/// radii (Cordero et al., Dalton Transactions 2008, as gemmi has them) and a tolerance of 0.45 Å.
-std::vector<std::array<std::size_t, 2>> bondsOf(const BallSet& atoms)
+struct Bond {
+    std::size_t i, j; ///< atoms
+    BondOrder order;
+};
+
+/// Pairs of atoms that the table of residues or the file joins, and of others those as near as
+/// their covalent radii (Cordero et al., Dalton Transactions 2008, as gemmi has them) and a
+/// tolerance of 0.45 Å.
+std::vector<Bond> bondsOf(const ShownAtoms& shown)
 {
     constexpr double tolerance = 0.45, least = 0.4, reach = 3.0; // [Å]
+    const BallSet& atoms = shown.atoms;
     const BallIndex index(atoms.balls, {1.0, 1.0, 2.0});
-    const BondTable table(*atoms.names);
+    const KnownBonds known(shown);
     const std::vector<std::uint8_t>& element = atoms.labels->elementOf;
-    std::vector<std::array<std::size_t, 2>> bonds;
+    std::vector<Bond> bonds;
     for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
         const Vec3d& x = atoms.balls[i].center;
         index.forEachNear(x, x, reach, [&](const Ball& other, std::int32_t at) {
@@ -119,7 +177,9 @@ std::vector<std::array<std::size_t, 2>> bondsOf(const BallSet& atoms)
             const double far = covalentRadius(element[i]) + covalentRadius(element[j]) + tolerance;
             const double d2 = (other.center - x).lengthSqr();
             const bool near = d2 > least * least && d2 < far * far;
-            if (table.bonded(i, j).value_or(near)) bonds.push_back({i, j});
+            const BondOrder order =
+                known.between(i, j).value_or(near ? BondOrder::Single : BondOrder::None);
+            if (order != BondOrder::None) bonds.push_back({i, j, order});
         });
     }
     return bonds;
@@ -136,37 +196,118 @@ std::vector<Color> atomColors(const BallSet& atoms, const Progress& progress, At
     return colors;
 }
 
+/// Half a stick from each end of a line between two atoms.
+void addHalves(const Vec3d& a, const Vec3d& b, double radius, const Color& ofA, const Color& ofB,
+               AtomModel& model)
+{
+    const Vec3d middle = 0.5 * (a + b);
+    addStick(a, middle, radius, ofA, model);
+    addStick(b, middle, radius, ofB, model);
+}
+
 /// Balls of some size, and half a stick from each end of a bond.
-void addBonded(const BallSet& atoms, const Progress& progress, double stick,
+void addBonded(const ShownAtoms& shown, const Progress& progress, double stick,
                double (*sizeOf)(const Ball&), AtomModel& model)
 {
+    const BallSet& atoms = shown.atoms;
     const std::vector<Color> colors = atomColors(atoms, progress, model);
     for (std::size_t i = 0; i < atoms.balls.size(); ++i)
         addBall(atoms.balls[i].center, sizeOf(atoms.balls[i]), colors[i], model);
-    for (const auto& [i, j] : bondsOf(atoms)) {
-        const Vec3d &a = atoms.balls[i].center, &b = atoms.balls[j].center;
-        const Vec3d middle = 0.5 * (a + b);
-        addStick(a, middle, stick, colors[i], model);
-        addStick(b, middle, stick, colors[j], model);
-    }
+    for (const auto& [i, j, order] : bondsOf(shown))
+        addHalves(atoms.balls[i].center, atoms.balls[j].center, stick, colors[i], colors[j], model);
 }
 
 constexpr double stickRadius = 0.25, thinStick = 0.14, tubeRadius = 0.6; // [Å]
 
-void addSticks(const BallSet& atoms, const Progress& progress, AtomModel& model)
+void addSticks(const ShownAtoms& shown, const Progress& progress, AtomModel& model)
 {
     addBonded(
-        atoms, progress, stickRadius, [](const Ball&) { return stickRadius; }, model);
+        shown, progress, stickRadius, [](const Ball&) { return stickRadius; }, model);
 }
 
-void addBalls(const BallSet& atoms, const Progress& progress, AtomModel& model)
+void addBalls(const ShownAtoms& shown, const Progress& progress, AtomModel& model)
 {
     addBonded(
-        atoms, progress, thinStick, [](const Ball& ball) { return 0.27 * ball.radius; }, model);
+        shown, progress, thinStick, [](const Ball& ball) { return 0.27 * ball.radius; }, model);
 }
 
-void addSpheres(const BallSet& atoms, const Progress& progress, AtomModel& model)
+/// The way aside from a bond, in the plane of the neighbours of its ends and toward most of them:
+/// of an aromatic bond those in its ring.
+/// @param[in] at  the bonds of each atom
+Vec3d asideOf(const Bond& bond, const std::vector<Bond>& bonds,
+              const std::vector<std::vector<std::size_t>>& at, const BallSet& atoms)
 {
+    const Vec3d a = atoms.balls[bond.i].center, b = atoms.balls[bond.j].center;
+    const Vec3d along = (b - a).unit();
+    Vec3d sum(0.0), any(0.0);
+    for (const std::size_t end : {bond.i, bond.j}) {
+        for (const std::size_t n : at[end]) {
+            const Bond& other = bonds[n];
+            const std::size_t far = other.i == end ? other.j : other.i;
+            if (far == bond.i || far == bond.j) continue;
+            if (bond.order == BondOrder::Aromatic && other.order != BondOrder::Aromatic) continue;
+            const Vec3d way = atoms.balls[far].center - atoms.balls[end].center;
+            const Vec3d across = way - way.dot(along) * along;
+            sum += across;
+            if (across.lengthSqr() > any.lengthSqr()) any = across;
+        }
+    }
+    constexpr double least = 0.3; // of neighbours on both sides the sum is next to nothing [Å]
+    if (sum.length() > least) return sum.unit();
+    return any.length() > least ? any.unit() : perpendicular(along)[0];
+}
+
+/// A row of short sticks.
+void addDashes(const Vec3d& a, const Vec3d& b, double radius, const Color& ofA, const Color& ofB,
+               AtomModel& model)
+{
+    constexpr int dashes = 3;
+    for (int k = 0; k < dashes; ++k) {
+        const double from = (2.0 * k + 0.5) / (2.0 * dashes), to = from + 0.5 / dashes;
+        const Vec3d start = a + from * (b - a), end = a + to * (b - a);
+        addHalves(start, end, radius, ofA, ofB, model);
+    }
+}
+
+/// Double and triple bonds as lines side by side, aromatic ones with dashes inside of their ring.
+void addOrders(const ShownAtoms& shown, const Progress& progress, AtomModel& model)
+{
+    // [Å]; the balls hide the ends of the lines
+    constexpr double joint = 0.28, single = 0.12, thin = 0.08, dash = 0.06, apart = 0.16,
+                     wide = 0.19, inside = 0.36;
+    const BallSet& atoms = shown.atoms;
+    const std::vector<Color> colors = atomColors(atoms, progress, model);
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i)
+        addBall(atoms.balls[i].center, joint, colors[i], model);
+    const std::vector<Bond> bonds = bondsOf(shown);
+    std::vector<std::vector<std::size_t>> at(atoms.balls.size());
+    for (std::size_t n = 0; n < bonds.size(); ++n)
+        for (const std::size_t end : {bonds[n].i, bonds[n].j}) at[end].push_back(n);
+    for (const Bond& bond : bonds) {
+        const Vec3d a = atoms.balls[bond.i].center, b = atoms.balls[bond.j].center;
+        const Color &ofA = colors[bond.i], &ofB = colors[bond.j];
+        const auto line = [&](const Vec3d& aside, double radius) {
+            addHalves(a + aside, b + aside, radius, ofA, ofB, model);
+        };
+        if (bond.order == BondOrder::Single) {
+            line(Vec3d(0.0), single);
+            continue;
+        }
+        const Vec3d aside = asideOf(bond, bonds, at, atoms);
+        if (bond.order == BondOrder::Double) {
+            for (const double side : {-apart, apart}) line(side * aside, thin);
+        } else if (bond.order == BondOrder::Triple) {
+            for (const double side : {-wide, 0.0, wide}) line(side * aside, thin);
+        } else {
+            line(Vec3d(0.0), single);
+            addDashes(a + inside * aside, b + inside * aside, dash, ofA, ofB, model);
+        }
+    }
+}
+
+void addSpheres(const ShownAtoms& shown, const Progress& progress, AtomModel& model)
+{
+    const BallSet& atoms = shown.atoms;
     const std::vector<Color> colors = atomColors(atoms, progress, model);
     for (std::size_t i = 0; i < atoms.balls.size(); ++i)
         addBall(atoms.balls[i].center, atoms.balls[i].radius, colors[i], model);
@@ -216,8 +357,9 @@ int backboneKind(const BallSet& atoms, std::size_t i)
 
 /// Through the CA of amino acids and the P of nucleotides, broken where neighbours are too far
 /// apart to be bonded.
-void addTubes(const BallSet& atoms, const Progress& progress, AtomModel& model)
+void addTubes(const ShownAtoms& shown, const Progress& progress, AtomModel& model)
 {
+    const BallSet& atoms = shown.atoms;
     constexpr double farthest[] = {4.4, 8.0}; // of CA, of P [Å]
     const std::vector<Color> colors = chainColors(atoms, progress);
     std::vector<Vec3d> points;
@@ -253,6 +395,12 @@ constexpr double copiesPerBondedAtom = 3.1;
 double bytesOfBonded(const BallSet& atoms)
 {
     return bytesPerCopy * copiesPerBondedAtom * double(atoms.balls.size());
+}
+
+double bytesOfOrders(const BallSet& atoms)
+{
+    constexpr double more = 2.5; // of all bonds double or aromatic
+    return more * bytesOfBonded(atoms);
 }
 
 double bytesOfSpheres(const BallSet& atoms)
@@ -295,6 +443,8 @@ const std::vector<AtomStyle>& atomStyles()
     static const std::vector<AtomStyle> all = {
         {"sticks", "bonds", addSticks, bytesOfBonded},
         {"balls", "small balls and thin bonds", addBalls, bytesOfBonded},
+        {"orders", "thin bonds, double, triple and aromatic ones as such", addOrders,
+         bytesOfOrders},
         {"spheres", "by van der Waals radii", addSpheres, bytesOfSpheres},
         {"tube", "the backbone", addTubes, bytesOfTubes}};
     return all;
@@ -321,7 +471,7 @@ ShowRule parseShow(const std::string& text)
 double bytesOfModel(const std::vector<ShownAtoms>& shown)
 {
     double bytes = 0.0;
-    for (const auto& [atoms, rule] : shown) bytes += rule.style->bytesOf(atoms);
+    for (const ShownAtoms& some : shown) bytes += some.rule.style->bytesOf(some.atoms);
     return bytes;
 }
 
@@ -329,9 +479,10 @@ AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progre
 {
     AtomModel model = emptyModel();
     const std::size_t without = model.mesh.triangles.size();
-    for (const auto& [atoms, rule] : shown) {
+    for (const ShownAtoms& some : shown) {
+        const ShowRule& rule = some.rule;
         const std::size_t before = model.instances.size();
-        rule.style->add(atoms, progress, model);
+        rule.style->add(some, progress, model);
         if (model.instances.size() == before)
             throw Error(ErrorKind::Input, "`show` " +
                                               (rule.select.empty() ? "" : rule.select + "=") +

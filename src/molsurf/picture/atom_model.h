@@ -10,11 +10,15 @@
 #include "molsurf/mesh/mesh_instance.h"
 #include "molsurf/progress.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace molsurf
 {
+
+struct FileBonds;
+struct ShownAtoms;
 
 /// Balls, sticks and tubes: copies of parts of a mesh, which may be stretched.
 struct AtomModel {
@@ -27,12 +31,12 @@ struct AtomModel {
 struct AtomStyle {
     const char* word; ///< of the command line
     const char* help;
-    void (*add)(const BallSet& atoms, const Progress& progress, AtomModel& model);
+    void (*add)(const ShownAtoms& shown, const Progress& progress, AtomModel& model);
     /// About what the atoms take while they are drawn [byte].
     double (*bytesOf)(const BallSet& atoms);
 };
 
-/// All of them: sticks, balls, spheres, tube.
+/// All of them: sticks, balls, orders, spheres, tube.
 const std::vector<AtomStyle>& atomStyles();
 
 /// Atoms of a structure and how they are shown.
@@ -49,6 +53,7 @@ ShowRule parseShow(const std::string& text);
 struct ShownAtoms {
     BallSet atoms; ///< with labels and names
     ShowRule rule;
+    std::shared_ptr<const FileBonds> bonds{}; ///< that their file gives; null: none
 };
 
 /// About what the model of these atoms takes while it is drawn [byte].

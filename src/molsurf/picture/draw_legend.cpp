@@ -49,17 +49,6 @@ std::string shortened(const std::string& name, const Font& font, int width)
     return "";
 }
 
-std::vector<std::string> tickTexts(const ColorScale& scale)
-{
-    return {numberText(scale.high), numberText(0.5 * (scale.low + scale.high)),
-            numberText(scale.low)};
-}
-
-std::string unitText(const Legend& legend)
-{
-    return "[" + legend.unit + "]";
-}
-
 /// The line for entries without room: as short as that, since it must not be cut off.
 std::string restText(std::size_t count)
 {
@@ -106,12 +95,6 @@ Picture enlarged(const Picture& picture, int width, int height, int above, const
             std::copy_n(picture.alpha.begin() + from, picture.width, out.alpha.begin() + to);
     }
     return out;
-}
-
-Color inkOn(const Color& background)
-{
-    const double gray = 0.3 * background[0] + 0.6 * background[1] + 0.1 * background[2];
-    return gray > 127.0 ? Color{30, 33, 38} : Color{235, 237, 240};
 }
 
 /// The length of a bar [Å].
@@ -290,16 +273,44 @@ Picture withScaleBar(const Picture& picture, int width, const Color& background)
     return out;
 }
 
+std::vector<std::string> tickTexts(const ColorScale& scale)
+{
+    return {numberText(scale.high), numberText(0.5 * (scale.low + scale.high)),
+            numberText(scale.low)};
+}
+
+std::string unitText(const Legend& legend)
+{
+    return "[" + legend.unit + "]";
+}
+
+Color inkOn(const Color& background)
+{
+    const double gray = 0.3 * background[0] + 0.6 * background[1] + 0.1 * background[2];
+    return gray > 127.0 ? Color{30, 33, 38} : Color{235, 237, 240};
+}
+
+int widthBeside(const std::vector<Legend>& legends, int width)
+{
+    return legends.empty() ? width : std::max(width - legendWidth(legends, width), width / 2);
+}
+
+Picture explained(Picture picture, const std::vector<Legend>& legends, bool scaleBar, int width,
+                  const Color& background)
+{
+    if (scaleBar && picture.pixel > 0.0) picture = withScaleBar(picture, width, background);
+    if (!legends.empty()) picture = withLegends(picture, legends, width, background);
+    return picture;
+}
+
 Picture drawExplained(const Mesh& mesh, DrawOptions options, const std::vector<Legend>& legends,
                       bool scaleBar, const Progress& progress)
 {
     const int width = options.width;
-    if (!legends.empty()) options.width = std::max(width - legendWidth(legends, width), width / 2);
+    options.width = widthBeside(legends, width);
     options.whole = width;
-    Picture picture = drawMesh(mesh, options, progress);
-    if (scaleBar && picture.pixel > 0.0) picture = withScaleBar(picture, width, options.background);
-    if (!legends.empty()) picture = withLegends(picture, legends, width, options.background);
-    return picture;
+    return explained(drawMesh(mesh, options, progress), legends, scaleBar, width,
+                     options.background);
 }
 
 } // namespace molsurf

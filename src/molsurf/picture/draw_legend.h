@@ -36,6 +36,23 @@ Picture withLegends(const Picture& picture, const std::vector<Legend>& legends, 
 /// @param[in] width    as of legendWidth()
 Picture withScaleBar(const Picture& picture, int width, const Color& background);
 
+/// Width of a picture that has legends beside it, half of the whole at least [pixel].
+int widthBeside(const std::vector<Legend>& legends, int width);
+
+/// The picture with a scale bar, if it is to scale and wanted, and with legends.
+/// @param[in] width  of the whole
+Picture explained(Picture picture, const std::vector<Legend>& legends, bool scaleBar, int width,
+                  const Color& background);
+
+/// The numbers of a scale, the highest first, with two digits that matter.
+std::vector<std::string> tickTexts(const ColorScale& scale);
+
+/// The unit of a scale as it is written: "[1/Å]".
+std::string unitText(const Legend& legend);
+
+/// The colour of letters on a background.
+Color inkOn(const Color& background);
+
 /// Draws a mesh with what explains it.
 /// @param[in] options   of the whole: what is beside the mesh takes of its width, half at most
 /// @param[in] legends   none: it has no column for them

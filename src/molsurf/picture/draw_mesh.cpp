@@ -147,7 +147,7 @@ private:
     {
         PixelLight here = layer.lights[placeOf(x, y)];
         if (here.depth == Seen::nothing || style_.sky == 0.0f) return here;
-        const int step = lightStep(view_.width), reach = 2 * step;
+        const int step = lightStep(options_), reach = 2 * step;
         const auto firstFrom = [&](int place) {
             return (std::max(place, 0) + step - 1) / step * step;
         };

@@ -55,6 +55,7 @@ struct DrawOptions {
     std::optional<PictureFrame> frame{}; ///< none: all of the mesh
     double turn = 0.0;                   ///< about `up` [degree]
     bool turnable = false;               ///< the scale is the same for every turn, also for 0
+    bool quick = false;                  ///< as few rays as in wide pictures, for those of a film
     /// Points whose principal axes make the automatic view, so that it is the same for any mesh of
     /// them; empty: the vertices.
     std::vector<openvdb::Vec3d> about{};

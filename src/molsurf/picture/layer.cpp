@@ -111,7 +111,7 @@ Layer Tracer::trace(const Layer* front, const Progress& progress) const
 {
     const auto width = std::size_t(view_.width), height = std::size_t(view_.height);
     // Rays miss what is thinner than a pixel, as bonds may be, and what begins behind a mean.
-    const bool sparse = view_.width > widestDense && options_.opacity >= 1.0 && !atoms_;
+    const bool sparse = isSparse(options_) && options_.opacity >= 1.0 && !atoms_;
     Layer layer;
     layer.seen.resize(samplesPerPixel * width * height);
     layer.lights.resize(width * height);
@@ -275,7 +275,7 @@ PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const
     // Light comes through walls that let it through: behind them no wall is in the dark, and atoms
     // are in that of each other alone.
     if (light.depth == Seen::nothing || (!isFirst && !isAtom)) return light;
-    const int step = lightStep(view_.width);
+    const int step = lightStep(options_);
     const int left = x - x % step, top = y - y % step;
     const bool asks = (left == x && top == y) || // a thin thing may miss the pixels that ask
                       !layer.seen[placeOf(subpixels * left, subpixels * top)].any();

@@ -25,13 +25,17 @@ namespace molsurf
 constexpr int subpixels = 2; ///< a pixel is the mean of 2 x 2 samples
 constexpr std::size_t samplesPerPixel = std::size_t(subpixels * subpixels);
 
-/// In pictures wider than this, [pixel], there are fewer rays than samples.
-constexpr int widestDense = 1000;
-
-/// Every which pixel, both ways, asks for its light: more is not seen in wide pictures.
-inline int lightStep(int width)
+/// Whether there are fewer rays than samples: more are not seen in wide pictures.
+inline bool isSparse(const DrawOptions& options)
 {
-    return width > widestDense ? 2 : 1;
+    constexpr int widestDense = 1000; // [pixel]
+    return options.quick || options.width > widestDense;
+}
+
+/// Every which pixel, both ways, asks for its light.
+inline int lightStep(const DrawOptions& options)
+{
+    return isSparse(options) ? 2 : 1;
 }
 
 /// What the eye sees in one place.

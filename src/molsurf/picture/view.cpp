@@ -141,7 +141,30 @@ std::array<Vec3d, 3> axesOf(const std::vector<Vec3d>& points, const DrawOptions&
             std::cos(angle) * toEye + std::sin(angle) * right};
 }
 
+/// The part of space that shows an extent [Å].
+PictureFrame frameOf(const Vec3d& center, double across, double upward)
+{
+    return {center, border * across, border * across * std::clamp(upward / across, 0.2, 4.0)};
+}
+
 } // namespace
+
+void keepView(std::size_t count, const std::function<std::vector<Vec3d>(std::size_t)>& pointsOf,
+              double margin, DrawOptions& options)
+{
+    const std::array<Vec3d, 3> axes = axesOf(pointsOf(0), options);
+    openvdb::BBoxd box;
+    for (std::size_t i = 0; i < count; ++i)
+        for (const Vec3d& x : pointsOf(i))
+            box.expand(Vec3d(x.dot(axes[0]), x.dot(axes[1]), x.dot(axes[2])));
+    const Vec3d mid = box.getCenter(), extent = box.extents() + Vec3d(2.0 * margin);
+    options.up = axes[1];
+    options.toEye = axes[2];
+    options.upright = Vec3d(0.0);
+    options.turn = 0.0;
+    options.frame =
+        frameOf(mid[0] * axes[0] + mid[1] * axes[1] + mid[2] * axes[2], extent[0], extent[1]);
+}
 
 View chooseView(const Mesh& mesh, const DrawOptions& options)
 {
@@ -170,8 +193,7 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
         }
     }
     const double across = std::max(extent[0], 2.0 * reach), upward = extent[1];
-    PictureFrame frame{view.center, border * across,
-                       border * across * std::clamp(upward / across, 0.2, 4.0)};
+    PictureFrame frame = frameOf(view.center, across, upward);
     view.low = -0.5 * extent[2];
     view.far = 0.5 * extent[2];
     if (options.frame) {

@@ -26,4 +26,12 @@ struct View {
 /// The frame that shows all of a mesh, or of its copies.
 View chooseView(const Mesh& mesh, const DrawOptions& options);
 
+/// Keeps one view for pictures of things that move: directions and size are in the options then.
+/// @param[in] count     how many sets of points there are, > 0
+/// @param[in] pointsOf  gives set i; the view is that of the first, and all are in the frame
+/// @param[in] margin    about the points [Å]
+void keepView(std::size_t count,
+              const std::function<std::vector<openvdb::Vec3d>(std::size_t i)>& pointsOf,
+              double margin, DrawOptions& options);
+
 } // namespace molsurf

@@ -2,6 +2,7 @@
 #include "molsurf/picture/write_html.h"
 
 #include "molsurf/balls/nearest_ball.h"
+#include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
 
 #include "molsurf/core/words.h"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 namespace molsurf
 {
@@ -234,6 +236,26 @@ Json namesOf(const HtmlPage& page, Arrays& arrays)
     return {{"residues", residues}, {"atoms", atoms}};
 }
 
+/// Packs the balls: places by steps of a part of the largest extent, radii by 0.02 Å.
+Json cutOf(const HtmlPage& page, const openvdb::Vec3d& origin, Arrays& arrays)
+{
+    constexpr double full = std::numeric_limits<std::uint16_t>::max(), radiusStep = 0.02; // [Å]
+    openvdb::BBoxd box;
+    for (const Ball& ball : page.balls) box.expand(openvdb::Vec3d(ball.center));
+    const openvdb::Vec3d extent = box.extents();
+    const double step = std::max({extent[0], extent[1], extent[2], 1e-6}) / full; // [Å]
+    arrays.add("ball_position", page.balls.size(), 3, 2, [&](std::size_t i, int c) {
+        const double place = (double(page.balls[i].center[c]) - box.min()[c]) / step;
+        return std::uint32_t(std::lround(std::clamp(place, 0.0, full)));
+    });
+    arrays.add("ball_radius", page.balls.size(), 1, 1, [&](std::size_t i, int) {
+        return std::uint32_t(
+            std::lround(std::clamp(double(page.balls[i].radius) / radiusStep, 0.0, 255.0)));
+    });
+    const openvdb::Vec3d low = box.min() - origin;
+    return {{"step", step}, {"radius_step", radiusStep}, {"low", {low[0], low[1], low[2]}}};
+}
+
 Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
 {
     const openvdb::Vec3d origin = boxOf(mesh).getCenter();
@@ -241,9 +263,17 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
     for (std::size_t n = 0; n < page.coarser.size(); ++n)
         levels.push_back(levelOf(*page.coarser[n], origin, "_lod" + std::to_string(n + 1), arrays));
     Json modes = Json::array();
-    for (const Legend& legend : page.legends) {
+    for (std::size_t k = 0; k < page.legends.size(); ++k) {
+        const Legend& legend = page.legends[k];
         Json mode = modeOf(legend, mesh, "", arrays);
         if (mode.is_null()) continue;
+        if (k < page.cutColors.size() && !page.cutColors[k].empty()) {
+            const std::vector<Color>& colors = page.cutColors[k];
+            mode["cut"] = "cut_" + legend.id;
+            arrays.add("cut_" + legend.id, colors.size(), 3, 1, [&](std::size_t i, int c) {
+                return std::uint32_t(colors[i][std::size_t(c)]);
+            });
+        }
         modes.push_back(std::move(mode));
         for (std::size_t n = 0; n < page.coarser.size(); ++n)
             modeOf(legend, *page.coarser[n], levels[n + 1]["level"].get<std::string>(), arrays);
@@ -257,10 +287,17 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
     for (const openvdb::Vec3d& axis : page.axes)
         axes.push_back(Json::array({axis[0], axis[1], axis[2]}));
     Json names = page.names && !page.ballOf.empty() ? namesOf(page, arrays) : Json();
-    return {{"title", page.title}, {"about", page.about},
-            {"levels", levels},    {"copies", copiesOf(page.instances, origin)},
-            {"axes", axes},        {"modes", modes},
-            {"names", names},      {"arrays", arrays.table()}};
+    const bool colored = !page.balls.empty() && page.instances.empty();
+    Json cut = colored ? cutOf(page, origin, arrays) : Json();
+    return {{"title", page.title},
+            {"about", page.about},
+            {"levels", levels},
+            {"copies", copiesOf(page.instances, origin)},
+            {"axes", axes},
+            {"modes", modes},
+            {"names", names},
+            {"cut", cut},
+            {"arrays", arrays.table()}};
 }
 
 /// Text that may stand anywhere in HTML; in JSON the escape means the same letter.
@@ -298,6 +335,22 @@ void nameAtoms(const BallNames& names, const std::vector<Ball>& balls, const Mes
     constexpr double farthest = 30.0; // from a ball [Å]
     page.names = &names;
     page.ballOf = nearestBalls(balls, mesh.positions, farthest, progress);
+}
+
+void colorCut(const BallSet& atoms, std::vector<Ball> balls, const Progress& progress,
+              HtmlPage& page)
+{
+    if (!atoms.placement.isWhole() || !atoms.labels) return;
+    page.balls = std::move(balls);
+    const auto& values = atoms.labels->values;
+    for (const Legend& legend : page.legends) {
+        ColorBy by = ColorBy::Nothing;
+        for (const ColorKind& kind : colorTable())
+            if (legend.id == kind.word && kind.ofBalls) by = kind.by;
+        if (values && legend.attribute == values->name && !values->byPoint()) by = ColorBy::Value;
+        page.cutColors.push_back(by == ColorBy::Nothing ? std::vector<Color>()
+                                                        : ballColors(atoms, by, progress));
+    }
 }
 
 void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file)

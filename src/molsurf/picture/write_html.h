@@ -35,6 +35,10 @@ struct HtmlPage {
     /// The names of balls, and the ball of each vertex; null: the page names no atoms.
     const BallNames* names = nullptr;
     std::vector<std::int32_t> ballOf{};
+    /// Balls whose colours are seen where the surface is cut, and these for each legend; empty: the
+    /// cut is grey.
+    std::vector<Ball> balls{};
+    std::vector<std::vector<Color>> cutColors{};
 };
 
 /// What a page shows: "Surface variational, voxels of 0.5 Å. Areas are of its mesh."
@@ -48,6 +52,11 @@ void needViewer();
 /// @param[in] names  of the balls, kept by reference
 void nameAtoms(const BallNames& names, const std::vector<Ball>& balls, const Mesh& mesh,
                const Progress& progress, HtmlPage& page);
+
+/// Gives a page the colours of what is cut, as its legends have them.
+/// @param[in] balls  those of the atoms, where the mesh is
+void colorCut(const BallSet& atoms, std::vector<Ball> balls, const Progress& progress,
+              HtmlPage& page);
 
 /// Writes a page of HTML with the mesh in it and a viewer (three.js, WebGL 2).
 ///

@@ -9,6 +9,7 @@
 #include "molsurf/structure/cif_rows.h"
 #include "molsurf/structure/gemmi_model.h"
 #include "molsurf/structure/ihm_spheres.h"
+#include "molsurf/structure/residue_bonds.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <gemmi/cif.hpp>
@@ -21,6 +22,7 @@
 #include <exception>
 #include <functional>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <unordered_set>
 
@@ -263,6 +265,50 @@ bool namesPlddt(Block& block)
     return false;
 }
 
+/// The order of a bond as mmCIF has it.
+BondOrder orderOf(const std::string& word, bool aromatic)
+{
+    const std::string lower = gemmi::to_lower(word);
+    if (aromatic || lower == "arom") return BondOrder::Aromatic;
+    return lower == "doub"   ? BondOrder::Double
+           : lower == "trip" ? BondOrder::Triple
+                             : BondOrder::Single;
+}
+
+/// The bonds of _chem_comp_bond, and covalent ones, disulfides and those of metals of _struct_conn
+/// that lead to no copy by the crystal's symmetry.
+std::shared_ptr<const FileBonds> readBonds(Block& block)
+{
+    const auto all = std::make_shared<FileBonds>();
+    const auto text = [](auto& row, std::size_t n) {
+        return row.has2(n) ? row.str(n) : std::string();
+    };
+    for (auto row : block.find("_chem_comp_bond.", {"comp_id", "atom_id_1", "atom_id_2",
+                                                    "?value_order", "?pdbx_aromatic_flag"}))
+        all->residues[row.str(0)].add(row.str(1), row.str(2),
+                                      orderOf(text(row, 3), text(row, 4) == "Y"));
+    for (auto& [name, bonds] : all->residues) bonds.finish();
+    auto table =
+        block.find("_struct_conn.",
+                   {"conn_type_id", "ptnr1_label_asym_id", "ptnr1_auth_seq_id",
+                    "ptnr1_label_atom_id", "ptnr2_label_asym_id", "ptnr2_auth_seq_id",
+                    "ptnr2_label_atom_id", "?pdbx_ptnr1_PDB_ins_code", "?pdbx_ptnr2_PDB_ins_code",
+                    "?ptnr1_symmetry", "?ptnr2_symmetry", "?pdbx_value_order"});
+    for (auto row : table) {
+        const std::string type = gemmi::to_lower(row.str(0)).substr(0, 6);
+        if (type != "covale" && type != "disulf" && type != "metalc") continue;
+        if (text(row, 9) != text(row, 10)) continue;
+        const auto end = [&](std::size_t first, std::size_t code) {
+            FileBonds::End out{row.str(first), 0, ' ', row.str(first + 2)};
+            parseInteger(row.str(first + 1), out.number);
+            if (row.has2(code)) out.insertionCode = row.str(code)[0];
+            return out;
+        };
+        all->links.push_back({end(1, 7), end(4, 8), orderOf(text(row, 11), false)});
+    }
+    return all->links.empty() && all->residues.empty() ? nullptr : all;
+}
+
 /// Takes out what the atoms do not need: faster, and nothing in it can fail.
 void keepOnlyAtoms(Block& block)
 {
@@ -344,6 +390,7 @@ Structure structureOf(gemmi::cif::Document& document, const std::string& path,
     Block& block = blockWithAtoms(document, path, out);
     out.assemblies = readAssemblies(block);
     out.plddt = namesPlddt(block);
+    out.bonds = readBonds(block);
     Block spheres("");
     if (hasSpheres(block)) spheres.items = block.items;
     if (block.has_tag("_atom_site.Cartn_x")) addRows(block, out);
@@ -416,7 +463,7 @@ Structure readDocument(std::string all, const std::string& path, const Progress&
 /// The categories that structureOf() reads.
 bool isRead(const std::string& category)
 {
-    constexpr std::array<const char*, 11> read{"_atom_site",
+    constexpr std::array<const char*, 13> read{"_atom_site",
                                                "_entity",
                                                "_struct_asym",
                                                "_pdbx_struct_oper_list",
@@ -425,6 +472,8 @@ bool isRead(const std::string& category)
                                                "_ihm_sphere_obj_site",
                                                "_entity_poly_seq",
                                                "_chem_comp_atom",
+                                               "_chem_comp_bond",
+                                               "_struct_conn",
                                                "_atom_site_label",
                                                "_ma_qa_metric"};
     return std::any_of(read.begin(), read.end(),

@@ -6,12 +6,19 @@
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/guess_element.h"
+#include "molsurf/structure/residue_bonds.h"
 #include "molsurf/structure/residue_names.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <map>
+#include <memory>
+#include <optional>
 #include <set>
+#include <unordered_map>
+#include <utility>
 
 namespace molsurf
 {
@@ -131,8 +138,12 @@ public:
     Structure read(const std::string& text, const Progress& progress)
     {
         LayoutFinder finder;
-        for (LineReader lines(text); lines.next();)
-            if (isAtomRecord(lines.line())) finder.add(lines.line());
+        for (LineReader lines(text); lines.next();) {
+            if (isAtomRecord(lines.line()))
+                finder.add(lines.line());
+            else if (lines.line().substr(0, 6) == "CONECT")
+                connect(lines.line());
+        }
         layout_ = finder.layout();
         constexpr std::size_t shortest = 54; // of the line of an atom
         tree_.reserve(std::min(finder.atoms(), text.size() / shortest + 1));
@@ -143,11 +154,42 @@ public:
         out.assemblies = parseRemark350(remarks_);
         auto ncs = parseMtrix(matrices_, out.warnings);
         if (ncs) out.assemblies.push_back(std::move(*ncs));
+        out.bonds = bonds();
         if (autoDock_ && charges_.size() == out.atoms.size()) out.charges = std::move(charges_);
         return out;
     }
 
 private:
+    /// Keeps the numbers of a record CONECT: an atom, and up to four that it is bonded to. Some
+    /// programs say a double bond twice.
+    void connect(string_view line)
+    {
+        constexpr std::size_t first = 6, width = 5, most = 4;
+        int from = 0;
+        if (!parseInteger(columns(line, first, width), from)) return;
+        for (std::size_t n = 1; n <= most; ++n) {
+            int to = 0;
+            if (!parseInteger(columns(line, first + n * width, width), to) || to == from) continue;
+            ++connected_[{std::min(from, to), std::max(from, to)}][from < to];
+            ends_[from] = ends_[to] = std::nullopt;
+        }
+    }
+
+    std::shared_ptr<const FileBonds> bonds() const
+    {
+        const auto all = std::make_shared<FileBonds>();
+        for (const auto& [pair, times] : connected_) {
+            const auto &a = ends_.at(pair.first), &b = ends_.at(pair.second);
+            if (!a || !b) continue;
+            const int most = std::max(times[0], times[1]);
+            const BondOrder order = most == 2   ? BondOrder::Double
+                                    : most == 3 ? BondOrder::Triple
+                                                : BondOrder::Single;
+            all->links.push_back({*a, *b, order});
+        }
+        return all->links.empty() ? nullptr : all;
+    }
+
     void record(const LineReader& lines)
     {
         const string_view line = lines.line();
@@ -195,6 +237,10 @@ private:
             autoDockType(line, atom);
         else
             element(line, atom);
+        const auto end = ends_.find(atom.serial);
+        if (end != ends_.end() && !end->second)
+            end->second = {std::string(atom.chain), atom.number, atom.insertionCode,
+                           std::string(atom.name)};
         tree_.add(atom);
     }
 
@@ -258,6 +304,9 @@ private:
     AtomTree tree_;
     std::vector<string_view> remarks_, matrices_;
     std::vector<float> charges_;
+    /// By numbers of atoms: how often a bond is given from either end, and the atoms, once known.
+    std::map<std::pair<int, int>, std::array<int, 2>> connected_;
+    std::unordered_map<int, std::optional<FileBonds::End>> ends_;
     int next_ = 1, last_ = 0; ///< numbers of the model that the next atom starts, and of the last
     bool inModel_ = false;
 };

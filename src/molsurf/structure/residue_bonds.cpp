@@ -12,7 +12,8 @@ namespace
 
 struct Row {
     const char* residue;
-    const char* bonds; ///< "C-O" or, for a double one, "C=O", with blanks between them
+    const char* bonds; ///< "C-O", "C=O", "C#N", or of an aromatic ring "C:C", with
+                       ///< blanks between them
 };
 
 constexpr Row rows[] = {
@@ -29,50 +30,75 @@ std::string todaysName(std::string_view atom)
     return name;
 }
 
-std::array<std::string_view, 2> sorted(std::string_view a, std::string_view b)
+std::array<std::string, 2> sorted(std::string_view a, std::string_view b)
 {
-    return a < b ? std::array{a, b} : std::array{b, a};
+    return a < b ? std::array{std::string(a), std::string(b)}
+                 : std::array{std::string(b), std::string(a)};
 }
 
-} // namespace
-
-ResidueBonds::ResidueBonds(std::string_view row)
+ResidueBonds parsed(std::string_view row)
 {
+    ResidueBonds bonds;
     while (!row.empty()) {
         const std::size_t end = std::min(row.find(' '), row.size());
         const std::string_view bond = row.substr(0, end);
-        const std::size_t order = bond.find_first_of("-=#");
-        const std::string_view a = bond.substr(0, order), b = bond.substr(order + 1);
-        bonds_.push_back(sorted(a, b));
-        atoms_.insert(atoms_.end(), {a, b});
+        const std::size_t order = bond.find_first_of("-=#:");
+        bonds.add(std::string(bond.substr(0, order)), std::string(bond.substr(order + 1)),
+                  BondOrder(bond[order]));
         row.remove_prefix(std::min(end + 1, row.size()));
     }
-    std::sort(atoms_.begin(), atoms_.end());
-    std::sort(bonds_.begin(), bonds_.end());
+    bonds.finish();
+    return bonds;
 }
+
+} // namespace
 
 const ResidueBonds* ResidueBonds::find(const std::string& residue)
 {
     static const std::unordered_map<std::string, ResidueBonds> all = [] {
         std::unordered_map<std::string, ResidueBonds> table;
-        for (const Row& row : rows) table.emplace(row.residue, ResidueBonds(row.bonds));
+        for (const Row& row : rows) table.emplace(row.residue, parsed(row.bonds));
         return table;
     }();
     const auto found = all.find(residue);
     return found == all.end() ? nullptr : &found->second;
 }
 
-bool ResidueBonds::has(std::string_view atom) const
+void ResidueBonds::add(const std::string& a, const std::string& b, BondOrder order)
 {
-    return std::binary_search(atoms_.begin(), atoms_.end(), atom) ||
-           std::binary_search(atoms_.begin(), atoms_.end(), std::string_view(todaysName(atom)));
+    bonds_.push_back({sorted(a, b), order});
+    atoms_.insert(atoms_.end(), {a, b});
 }
 
-bool ResidueBonds::bonded(std::string_view a, std::string_view b) const
+void ResidueBonds::finish()
 {
-    if (std::binary_search(bonds_.begin(), bonds_.end(), sorted(a, b))) return true;
-    const std::string first = todaysName(a), second = todaysName(b);
-    return std::binary_search(bonds_.begin(), bonds_.end(), sorted(first, second));
+    std::sort(atoms_.begin(), atoms_.end());
+    std::stable_sort(bonds_.begin(), bonds_.end(),
+                     [](const Bond& a, const Bond& b) { return a.atoms < b.atoms; });
+}
+
+bool ResidueBonds::has(std::string_view atom) const
+{
+    const auto is = [&](const std::string& name) {
+        return std::binary_search(atoms_.begin(), atoms_.end(), name);
+    };
+    return is(std::string(atom)) || is(todaysName(atom));
+}
+
+const ResidueBonds::Bond* ResidueBonds::find(std::string_view a, std::string_view b) const
+{
+    const auto atoms = sorted(a, b);
+    const auto found =
+        std::lower_bound(bonds_.begin(), bonds_.end(), atoms,
+                         [](const Bond& bond, const auto& pair) { return bond.atoms < pair; });
+    return found != bonds_.end() && found->atoms == atoms ? &*found : nullptr;
+}
+
+BondOrder ResidueBonds::between(std::string_view a, std::string_view b) const
+{
+    const Bond* bond = find(a, b);
+    if (!bond) bond = find(todaysName(a), todaysName(b));
+    return bond ? bond->order : BondOrder::None;
 }
 
 } // namespace molsurf

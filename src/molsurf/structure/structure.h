@@ -11,11 +11,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace molsurf
 {
+
+struct FileBonds;
 
 /// What a residue is; classifyResidues() decides. docs/structures.md has the table.
 enum class ResidueKind : std::uint8_t {
@@ -132,7 +135,8 @@ struct Structure {
                              ///< all 0
     bool plddt = false;      ///< whether the file says that B factors are the pLDDT of a prediction
     std::size_t guessed = 0; ///< atoms of the first model whose elements come from names or masses
-    std::vector<std::string> warnings; ///< one line each: parts of the file that were ignored
+    std::shared_ptr<const FileBonds> bonds; ///< that the file gives; null: it gives none
+    std::vector<std::string> warnings;      ///< one line each: parts of the file that were ignored
 };
 
 /// The residue that an atom belongs to.

@@ -47,6 +47,9 @@ public:
 
     std::size_t size() const { return numbers_.size(); }
 
+    /// The bonds that the structure gives; null: none.
+    const std::shared_ptr<const FileBonds>& bonds() const { return structure_.bonds; }
+
     /// The number of frame i in the file.
     int number(std::size_t i) const { return numbers_[i]; }
 

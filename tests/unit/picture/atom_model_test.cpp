@@ -4,6 +4,7 @@
 #include "molsurf/error.h"
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/picture/style.h"
+#include "molsurf/structure/residue_bonds.h"
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,58 @@ TEST(AtomModel, BondsByTheTable)
     const BallSet ligand = readAtoms(MOLSURF_TEST_DATA "/4at1.ent.gz", options);
     ASSERT_EQ(ligand.balls.size(), 31u);
     EXPECT_EQ(partsOf(modelOf(ligand, "sticks"))[1], 2 * (31 - 1 + 3)); // three rings
+}
+
+/// How many sticks the bonds of threonine 1 of crambin have, whose name the table lacks.
+/// @param[in] links  pairs of atoms that a file joins
+int sticksOf(const std::vector<std::array<const char*, 2>>& links, const char* residue = "XXX")
+{
+    ShownAtoms shown{atomsOf("/1/A/1"), parseShow("sticks"), nullptr};
+    shown.atoms.names->residues[0].name = residue;
+    const auto bonds = std::make_shared<FileBonds>();
+    for (const auto& [a, b] : links) bonds->links.push_back({{"A", 1, ' ', a}, {"A", 1, ' ', b}});
+    shown.bonds = bonds;
+    return partsOf(atomModel({shown}, Progress()))[1];
+}
+
+// A link of the file joins what lies too far apart. A residue all of whose atoms are linked has no
+// other bonds; the table of residues knows better than both.
+TEST(AtomModel, BondsOfTheFile)
+{
+    constexpr int bonds = 6; // N-CA-C-O, CA-CB-OG1, CB-CG2
+    EXPECT_EQ(sticksOf({}), 2 * bonds);
+    EXPECT_EQ(sticksOf({{"N", "CB"}}), 2 * (bonds + 1)); // 2.5 Å
+    EXPECT_EQ(sticksOf({{"N", "CA"}, {"C", "O"}, {"CB", "OG1"}, {"CB", "CG2"}}), 2 * 4);
+    EXPECT_EQ(sticksOf({{"N", "CB"}}, "THR"), 2 * bonds);
+    // What the file says of a component comes before the table.
+    ShownAtoms shown{atomsOf("/1/A/1"), parseShow("sticks"), nullptr};
+    const auto own = std::make_shared<FileBonds>();
+    own->residues["THR"].add("N", "CA", BondOrder::Single);
+    own->residues["THR"].finish();
+    shown.bonds = own;
+    EXPECT_EQ(partsOf(atomModel({shown}, Progress()))[1], 2 * (bonds - 0));
+    own->residues["THR"].add("CB", "CG2", BondOrder::Single);
+    own->residues["THR"].add("CA", "C", BondOrder::Single);
+    own->residues["THR"].finish();
+    EXPECT_EQ(partsOf(atomModel({shown}, Progress()))[1], 2 * (bonds - 1)); // CA-CB is none there
+}
+
+// Phenylalanine 13: a double bond C=O, six aromatic ones, four single ones.
+TEST(AtomModel, DrawsOrders)
+{
+    const AtomModel model = modelOf(atomsOf("/1/A/13"), "orders");
+    constexpr int dashes = 3;
+    EXPECT_EQ(partsOf(model)[1], 2 * (4 + 2 + 6 * (1 + dashes)));
+    // Dashes lie inside of the ring: nearer to its middle than any of its atoms.
+    const BallSet atoms = atomsOf("/1/A/13");
+    Vec3d middle(0.0);
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i)
+        for (const char* name : {"CG", "CD1", "CD2", "CE1", "CE2", "CZ"})
+            if (atoms.names->atoms[i].name == name) middle += atoms.balls[i].center / 6.0;
+    int near = 0;
+    for (const MeshInstance& thing : model.instances)
+        near += thing.part == 1 && (thing.translation - middle).length() < 1.15;
+    EXPECT_EQ(near, 2 * 6 * dashes);
 }
 
 // A stick reaches from its atom to the middle of the bond, and has its radius.

@@ -36,6 +36,29 @@ TEST(WriteHtml, ALoneMeshHasNoCopies)
     EXPECT_EQ(header["modes"].size(), 1u);
 }
 
+TEST(WriteHtml, ACutHasTheColoursOfBalls)
+{
+    HtmlPage page;
+    page.legends = {{"Curvature", "curvature", "curvature", "", scaleOf("RdBu", -1, 1), {}},
+                    {"Chain", "chain", "", "", {}, {{"A", {1, 2, 3}}}}};
+    page.balls = {{{10, 1, 0}, 1.5, 0}, {{12, 1, 0}, 2.0, 1}};
+    page.cutColors = {{}, {{1, 2, 3}, {4, 5, 6}}};
+    Mesh mesh = triangle(2);
+    mesh.scalars = {{"curvature", {0, 1, 2}}};
+    mesh.colors = {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}};
+    const auto header = headerOf(mesh, page);
+    EXPECT_EQ(header["cut"]["low"], nlohmann::json::parse("[-1.0, 0.0, 0.0]")); // about (11, 1, 0)
+    EXPECT_EQ(header["modes"][1]["cut"], "cut_chain");
+    EXPECT_FALSE(header["modes"][0].contains("cut"));
+    int found = 0;
+    for (const auto& array : header["arrays"])
+        found += array["name"] == "cut_chain" && array["count"] == 2 && array["components"] == 3;
+    EXPECT_EQ(found, 1);
+    page.instances = {
+        {0, "1", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, openvdb::Vec3d(0.0), {1, 2, 3}}};
+    EXPECT_TRUE(headerOf(mesh, page)["cut"].is_null()); // balls of copies are not there
+}
+
 TEST(WriteHtml, CopiesArePlacedAboutTheMiddleOfTheMesh)
 {
     const Mesh coarse = triangle(4);

@@ -236,7 +236,7 @@ TEST(Words, AreSettledByTheFirstModel)
     s.models[2].end -= 1; // of another size
     SelectOptions options;
     options.select = "same x as index 5";
-    options.groups = {{"near", "chain A within 4 of resid 3"}, {"all", "name CA"}};
+    options.groups = {{"near", "chain A within 4 of resid 3", {}}, {"all", "name CA", {}}};
     options.resolutions = {{"z < 3", 5.0}};
     settleSelections(options, first, s);
     EXPECT_EQ(s.settled.size(), 3u);

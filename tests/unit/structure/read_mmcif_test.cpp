@@ -4,6 +4,7 @@
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/structure/readers.h"
+#include "molsurf/structure/residue_bonds.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>
@@ -33,6 +34,40 @@ std::string atomSite(const std::string& columns, const std::string& rows)
         begin = end + 1;
     }
     return text + rows + "#\n";
+}
+
+TEST(ReadMmcif, BondsOfComponentsAndConnections)
+{
+    const std::string atoms =
+        atomSite("id type_symbol label_atom_id label_comp_id label_asym_id Cartn_x Cartn_y Cartn_z "
+                 "auth_seq_id",
+                 "1 C C1 XXX E 0 0 0 301\n2 N N2 XXX E 1.2 0 0 301\n");
+    const std::string bonds =
+        "loop_\n_chem_comp_bond.comp_id\n_chem_comp_bond.atom_id_1\n_chem_comp_bond.atom_id_2\n"
+        "_chem_comp_bond.value_order\n_chem_comp_bond.pdbx_aromatic_flag\n"
+        "XXX C1 N2 trip N\nXXX N2 \"C3'\" SING Y\nYYY A B doub N\n#\n"
+        "loop_\n_struct_conn.id\n_struct_conn.conn_type_id\n_struct_conn.ptnr1_label_asym_id\n"
+        "_struct_conn.ptnr1_auth_seq_id\n_struct_conn.ptnr1_label_atom_id\n"
+        "_struct_conn.ptnr2_label_asym_id\n_struct_conn.ptnr2_auth_seq_id\n"
+        "_struct_conn.ptnr2_label_atom_id\n_struct_conn.ptnr1_symmetry\n"
+        "_struct_conn.ptnr2_symmetry\n"
+        "1 covale A 12 SG E 301 C1 1_555 1_555\n2 hydrog A 13 N E 301 N2 1_555 1_555\n"
+        "3 metalc A 14 ND1 E 301 N2 1_555 2_655\n#\n";
+    for (const bool pieces : {false, true}) {
+        const std::string text = atoms + bonds;
+        const Structure s =
+            pieces ? readMmcifInPieces(text, "a.cif", Progress(), 1) : readMmcif(text);
+        ASSERT_TRUE(s.bonds);
+        EXPECT_EQ(s.bonds->residues.at("XXX").between("N2", "C1"), BondOrder::Triple);
+        EXPECT_EQ(s.bonds->residues.at("XXX").between("N2", "C3'"), BondOrder::Aromatic);
+        EXPECT_EQ(s.bonds->residues.at("XXX").between("C1", "C3'"), BondOrder::None);
+        EXPECT_EQ(s.bonds->residues.at("YYY").between("A", "B"), BondOrder::Double);
+        ASSERT_EQ(s.bonds->links.size(), 1u); // no hydrogen bond, and none to a copy
+        EXPECT_EQ(s.bonds->links[0].a.atom, "SG");
+        EXPECT_EQ(s.bonds->links[0].b.chain, "E");
+        EXPECT_EQ(s.bonds->links[0].b.number, 301);
+    }
+    EXPECT_FALSE(readMmcif(atoms).bonds);
 }
 
 const std::string full = "group_PDB id type_symbol label_atom_id label_alt_id label_comp_id "

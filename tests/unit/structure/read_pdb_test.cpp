@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/read_structure.h"
+#include "molsurf/structure/residue_bonds.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>
@@ -215,6 +216,31 @@ TEST(ReadPdb, RefusesAMisspeltAtom)
             << record;
     for (const char* record : {"SIGATM", "ANISOU", "REMARK", "CONECT"})
         EXPECT_EQ(readPdb(atom + record + atom.substr(6)).atoms.size(), 1u) << record;
+}
+
+// Bonds of a record CONECT: twice from one end is a double one; numbers without an atom are none.
+TEST(ReadPdb, BondsOfConect)
+{
+    const auto line = [](int serial, const char* name, int number) {
+        char text[100];
+        std::snprintf(text, sizeof text,
+                      "HETATM%5d  %-3s XXX B%4dA   %8.3f   0.000   0.000  1.00  0.00           C\n",
+                      serial, name, number, 1.5 * serial);
+        return std::string(text);
+    };
+    const std::string atoms = line(11, "C1", 7) + line(12, "C2", 7) + line(13, "C3", 8);
+    const Structure s = readPdb(atoms + "CONECT   11   12   12   99\nCONECT   12   11   11   13\n"
+                                        "CONECT   13   12\nCONECT   xx   12\nCONECT   11   11\n");
+    ASSERT_TRUE(s.bonds);
+    ASSERT_EQ(s.bonds->links.size(), 2u);
+    const FileBonds::Link &first = s.bonds->links[0], &second = s.bonds->links[1];
+    EXPECT_EQ(first.a.atom + first.b.atom + second.a.atom + second.b.atom, "C1C2C2C3");
+    EXPECT_EQ(first.order, BondOrder::Double);
+    EXPECT_EQ(second.order, BondOrder::Single);
+    EXPECT_EQ(second.b.chain, "B");
+    EXPECT_EQ(second.b.number, 8);
+    EXPECT_EQ(second.b.insertionCode, 'A');
+    EXPECT_FALSE(readPdb(atoms).bonds);
 }
 
 /// A record whose residue's name and chain stand in columns 18 to 22.

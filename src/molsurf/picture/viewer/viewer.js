@@ -3,8 +3,8 @@
 // viewer.min.js of this file and the parts of three.js that it uses.
 
 import {
-  AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, DynamicDrawUsage,
-  FrontSide, Frustum, Group, InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Plane,
+  AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, DataTexture, DirectionalLight, DoubleSide, DynamicDrawUsage,
+  FrontSide, Frustum, Group, InstancedMesh, LinearFilter, Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, Plane,
   Quaternion, Raycaster, SRGBColorSpace, Scene, ShaderMaterial, Sphere, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { TrackballControls } from 'three/examples/jsm/controls/TrackballControls.js';
@@ -468,12 +468,121 @@ class Copies {
   }
 }
 
+// ---- the cut --------------------------------------------------------------------------------
+
+// What is seen of walls from behind where the surface is cut: the colour of the cut before them.
+const insideShader = {
+  side: BackSide,
+  clipping: true,
+  vertexShader: `varying vec3 world;
+    #include <clipping_planes_pars_vertex>
+    void main() {
+      vec4 place = modelMatrix * vec4(position, 1.0);
+      world = place.xyz;
+      vec4 mvPosition = viewMatrix * place;
+      #include <clipping_planes_vertex>
+      gl_Position = projectionMatrix * mvPosition;
+    }`,
+  fragmentShader: `varying vec3 world;
+    uniform vec3 normal, middle, right, up;
+    uniform float constant, extent;
+    uniform sampler2D colors;
+    #include <clipping_planes_pars_fragment>
+    void main() {
+      #include <clipping_planes_fragment>
+      vec3 way = world - cameraPosition;
+      vec3 at = cameraPosition - way * (dot(normal, cameraPosition) + constant) / dot(normal, way) - middle;
+      gl_FragColor = vec4(texture2D(colors, vec2(dot(at, right), dot(at, up)) / extent + 0.5).rgb, 1.0);
+    }`,
+};
+
+// The colours of a cut: those of the nearest atoms, in a picture of the plane.
+class CutColors {
+  constructor(header, arrays, sphere) {
+    this.sphere = sphere; // of the surface, where it is not turned
+    const uniforms = { constant: { value: 0 }, extent: { value: 2.1 * sphere.radius }, colors: { value: null } };
+    for (const name of ['normal', 'middle', 'right', 'up']) uniforms[name] = { value: new Vector3() };
+    this.material = new ShaderMaterial({ ...insideShader, uniforms });
+    this.drawn = '';
+    this.balls = [];
+    this.cells = new Map(); // of 4 Å, the balls in each
+    if (!header.cut) return;
+    const { step, radius_step: radiusStep, low } = header.cut;
+    arrays.ball_radius.forEach((radius, i) => {
+      const at = [0, 1, 2].map((c) => arrays.ball_position[3 * i + c] * step + low[c]);
+      const key = CutColors.keyOf(at.map((x) => Math.floor(x / 4)));
+      if (!this.cells.has(key)) this.cells.set(key, []);
+      this.cells.get(key).push(i);
+      this.balls.push([...at, (radius * radiusStep) ** 2]);
+    });
+  }
+
+  static keyOf([x, y, z]) {
+    return ((x + 8192) * 16384 + y + 8192) * 16384 + z + 8192;
+  }
+
+  // The ball that a point belongs to, -1: none is near.
+  ballAt([x, y, z]) {
+    const cell = [x, y, z].map((c) => Math.floor(c / 4));
+    let nearest = -1, least = Infinity;
+    for (let i = -1; i < 2; ++i) for (let j = -1; j < 2; ++j) for (let k = -1; k < 2; ++k) {
+      for (const n of this.cells.get(CutColors.keyOf([cell[0] + i, cell[1] + j, cell[2] + k])) ?? []) {
+        const ball = this.balls[n];
+        const power = (x - ball[0]) ** 2 + (y - ball[1]) ** 2 + (z - ball[2]) ** 2 - ball[3];
+        if (power < least) {
+          least = power;
+          nearest = n;
+        }
+      }
+    }
+    return nearest;
+  }
+
+  // Draws the plane as the camera sees it, unless it was the last one, too.
+  // other: the colour of what has none; turn: of the surface
+  draw(plane, camera, turn, mode, arrays, size, other) {
+    const colors = this.balls.length > 0 && mode.cut ? arrays[mode.cut] : null;
+    const rest = mode.kind === 'plain' && this.balls.length > 0 ? mode.color : other;
+    const pixels = colors ? size : 1;
+    const what = [...plane.normal.toArray(), plane.constant, ...camera.up.toArray(), mode.id, pixels, ...rest].join();
+    this.pixels = pixels;
+    if (what === this.drawn) return;
+    this.drawn = what;
+    const { uniforms } = this.material;
+    const middle = this.sphere.center.clone().applyQuaternion(turn);
+    plane.projectPoint(middle, uniforms.middle.value);
+    uniforms.normal.value.copy(plane.normal);
+    uniforms.constant.value = plane.constant;
+    uniforms.right.value.crossVectors(plane.normal, camera.up).normalize();
+    uniforms.up.value.crossVectors(uniforms.right.value, plane.normal).normalize();
+    const back = turn.clone().invert(), extent = uniforms.extent.value;
+    const local = (v) => v.clone().applyQuaternion(back);
+    const start = local(uniforms.middle.value), right = local(uniforms.right.value), up = local(uniforms.up.value);
+    const data = new Uint8Array(4 * pixels * pixels), at = new Vector3();
+    for (let row = 0; row < pixels; ++row) {
+      for (let column = 0; column < pixels; ++column) {
+        at.copy(start).addScaledVector(right, ((column + 0.5) / pixels - 0.5) * extent)
+          .addScaledVector(up, ((row + 0.5) / pixels - 0.5) * extent);
+        const ball = colors ? this.ballAt(at.toArray()) : -1;
+        const color = ball < 0 ? rest : colors.subarray(3 * ball, 3 * ball + 3);
+        data.set([...color, 255], 4 * (row * pixels + column));
+      }
+    }
+    uniforms.colors.value?.dispose();
+    const texture = new DataTexture(data, pixels, pixels);
+    texture.magFilter = texture.minFilter = LinearFilter;
+    texture.needsUpdate = true;
+    uniforms.colors.value = texture;
+  }
+}
+
 // ---- the scene ------------------------------------------------------------------------------
 
 const frameTime = 1000 / 30; // that turning may take [ms]
 const restAfter = 150; // without a move [ms]
 const longest = 200; // that a finer drawing may take when nothing moves [ms]
 const manyCopies = 300; // too many to be drawn one by one without a graphics card
+const coarseCut = 96, fineCut = 400; // texels across a cut, while it moves and at rest
 const mostSorted = 1e6; // triangles, for a drawing at rest
 
 const keyNames = [['arrows', 'turn'], ['+ \u2212', 'zoom'], ['r', 'reset view'], ['Esc', 'choose nothing'],
@@ -517,7 +626,10 @@ function start(header, arrays) {
     if (renderer.getPixelRatio() !== pixelRatio) renderer.setPixelRatio(pixelRatio);
     scene.updateMatrixWorld();
     size = copies.choose(camera, stage.clientHeight * ratio, pixels, triangles);
-    if (clipped()) cut.constant = cutAt();
+    if (clipped()) {
+      cut.constant = cutAt();
+      cutColors.draw(cut, camera, copies.group.quaternion, mode, arrays, moved ? coarseCut : fineCut, inside);
+    }
     crowded = moved && slow && copies.seen > manyCopies;
     const joined = crowded ? copies.join(0) : glass ? copies.join(Math.min(triangles, mostSorted)) : null;
     if (glass) joined.sort(toEye().applyQuaternion(copies.group.quaternion.clone().invert()).toArray());
@@ -529,6 +641,7 @@ function start(header, arrays) {
     dataset.triangles = renderer.info.render.triangles;
     dataset.drawn = Number(dataset.drawn ?? 0) + 1;
   };
+  const unfinished = () => several || slow || (clipped() && cutColors.pixels === coarseCut);
   const toEye = () => camera.position.clone().sub(controls.target).normalize();
   const timed = (...how) => { // waits for the end of the drawing
     const begin = performance.now();
@@ -560,14 +673,14 @@ function start(header, arrays) {
       draw(finest, slow || several ? most : Infinity, slow ? sharp : several ? ratio : 2);
       movedAt = now;
       moved = false;
-    } else if ((several || slow) && size > 0 && pause > restAfter) {
+    } else if (unfinished() && size > 0 && pause > restAfter) {
       const last = !several || size <= 1;
       const time = timed(last ? finest : Math.max(1, size / 2), Infinity, last ? 2 : ratio);
       if (last || time > longest) size = 0;
       sharp = Math.min(1, 1.1 * sharp);
     }
     if (!moved && pause > restAfter) remember();
-    document.body.dataset.rests = !moved && (size === 0 || !(several || slow));
+    document.body.dataset.rests = !moved && (size === 0 || !unfinished());
   };
   controls.addEventListener('change', () => { // which goes on after a move for steps nobody sees
     const way = place.distanceTo(camera.position) / controls.target.distanceTo(camera.position);
@@ -712,8 +825,10 @@ function start(header, arrays) {
     cut.normal.copy(toEye()).negate();
     return toEye().dot(middle) + radius * (1 - 2 * Number(byId('clip').value));
   };
-  const inside = new MeshBasicMaterial({ side: BackSide, clippingPlanes: [cut] });
-  if (!several) copies.fill(inside);
+  const cutColors = new CutColors(header, arrays, copies.sphere);
+  cutColors.material.clippingPlanes = [cut];
+  let inside = [0xb9, 0xbe, 0xc6]; // of what has no colour
+  if (!several) copies.fill(cutColors.material);
   const setClip = () => {
     for (const one of [material, copies.quick]) {
       one.clippingPlanes = clipped() ? [cut] : null;
@@ -746,7 +861,7 @@ function start(header, arrays) {
   const setBackground = (dark) => {
     byId('dark').checked = dark;
     document.body.classList.toggle('dark', dark);
-    inside.color.set(dark ? 0x8a8f98 : 0xb9bec6);
+    inside = dark ? [0x8a, 0x8f, 0x98] : [0xb9, 0xbe, 0xc6];
     scene.background = new Color(dark ? 0x14161a : 0xffffff);
     moved = true;
   };

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/picture/view.h"
+
+#include "molsurf/picture/view_file.h"
+#include "unit/picture/add_ball.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace molsurf
+{
+namespace
+{
+
+using openvdb::Vec3d;
+
+/// A rod along y in the first set, which goes 10 Å along x.
+std::vector<Vec3d> rod(std::size_t i)
+{
+    std::vector<Vec3d> points;
+    for (int n = 0; n <= 20; ++n) points.push_back({5.0 * double(i), double(n), n % 2 ? 0.5 : 0.0});
+    return points;
+}
+
+TEST(View, OfAllSetsOfPoints)
+{
+    DrawOptions options;
+    keepView(3, rod, 1.5, options);
+    EXPECT_NEAR(std::abs(options.up.cross(options.toEye)[1]), 1.0, 0.01); // the rod lies across
+    options = DrawOptions();
+    lookFrom({0.0, 0.0, 1.0}, options);
+    keepView(3, rod, 1.5, options);
+    ASSERT_TRUE(options.frame);
+    EXPECT_NEAR(options.frame->width, 1.04 * (10.0 + 3.0), 1e-9);
+    EXPECT_NEAR(options.frame->height, 1.04 * (20.0 + 3.0), 1e-9);
+    // A mesh that is elsewhere does not change it.
+    Mesh mesh;
+    test::addBall(mesh, {3.0f, 4.0f, 0.0f}, 2.0f, {1, 2, 3});
+    options.width = 100;
+    const View view = chooseView(mesh, options);
+    EXPECT_NEAR(view.pixel * 100, options.frame->width, 1e-9);
+    EXPECT_NEAR(view.center[0], 5.0, 1e-9);
+    EXPECT_NEAR(view.center[1], 10.0, 1e-9);
+}
+
+TEST(View, TurnsOnce)
+{
+    DrawOptions options;
+    lookFrom({0.0, 0.0, 1.0}, options);
+    options.turn = 90.0;
+    keepView(1, rod, 0.0, options);
+    EXPECT_EQ(options.turn, 0.0);
+    EXPECT_NEAR(std::abs(options.toEye[0]), 1.0, 1e-9);
+    EXPECT_NEAR(options.up[1], 1.0, 1e-9);
+}
+
+} // namespace
+} // namespace molsurf

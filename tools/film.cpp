@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "film.h"
+
+#include "outputs.h"
+
+#include "molsurf/core/may_pass.h"
+#include "molsurf/core/words.h"
+#include "molsurf/error.h"
+#include "molsurf/io/temporary_file.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+extern char** environ; // NOLINT(readability-redundant-declaration): POSIX wants it declared here
+
+namespace molsurf::tool
+{
+
+namespace
+{
+
+constexpr const char* insteadHint = " [hint: -o NAME.png writes the pictures one by one]";
+
+/// How ffmpeg codes the films of an ending.
+struct Coding {
+    const char* ending;
+    const char* muxer;
+    std::vector<std::string> words;
+};
+
+const Coding& codingOf(const std::string& path)
+{
+    // Players take 4:2:0 alone, and those colours for the ones of HD television.
+    static const std::vector<std::string> yuv = {
+        "-vf",
+        "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
+        "-colorspace",
+        "bt709",
+        "-color_trc",
+        "bt709",
+        "-color_primaries",
+        "bt709",
+        "-color_range",
+        "tv"};
+    static const std::vector<Coding> all = [] {
+        std::vector<Coding> codings = {
+            {".mp4", "mp4", {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"}},
+            {".webm", "webm", {"-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "24", "-cpu-used", "4"}}};
+        for (Coding& coding : codings)
+            coding.words.insert(coding.words.end(), yuv.begin(), yuv.end());
+        codings.push_back(
+            {".gif", "gif", {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse"}});
+        return codings;
+    }();
+    const std::string ending = lowered(std::filesystem::path(path).extension().string());
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const Coding& coding) { return ending == coding.ending; });
+    return found == all.end() ? all.front() : *found;
+}
+
+/// Whether a program is where the shell would look for it.
+bool isInstalled(const char* program)
+{
+    const char* const path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "/usr/bin:/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::string file = (folder.empty() ? "." : folder) + "/" + program;
+        if (access(file.c_str(), X_OK) == 0 && !std::filesystem::is_directory(file)) return true;
+    }
+    return false;
+}
+
+/// A number of pixels made even.
+int even(int pixels)
+{
+    return pixels + pixels % 2;
+}
+
+/// The pixels of a picture in another size: cut off, or with its last column and row again.
+std::vector<std::uint8_t> pixelsOf(const Picture& picture, int width, int height)
+{
+    std::vector<std::uint8_t> out;
+    out.reserve(3 * std::size_t(width) * std::size_t(height));
+    for (int y = 0; y < height; ++y) {
+        const int row = std::min(y, picture.height - 1);
+        for (int x = 0; x < width; ++x) {
+            const int column = std::min(x, picture.width - 1);
+            const auto* pixel =
+                picture.rgb.data() + 3 * (std::ptrdiff_t(row) * picture.width + column);
+            out.insert(out.end(), pixel, pixel + 3);
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+void checkFilm(const std::string& path)
+{
+    if (isStream(path))
+        throw Error(ErrorKind::Output, path + ": expected a file for a film, got a pipe");
+    if (!isInstalled("ffmpeg"))
+        throw Error(ErrorKind::Output,
+                    "cannot write " + path +
+                        ": expected the program ffmpeg, got none [hint: install "
+                        "ffmpeg, or -o NAME.png writes the pictures one by one]");
+}
+
+Film::Film(OutputFile& file, double rate) : file_(file), rate_(rate) {}
+
+Film::Film(std::unique_ptr<OutputFile> file, double rate)
+    : own_(std::move(file)), file_(*own_), rate_(rate)
+{
+}
+
+Film::~Film()
+{
+    if (program_ == 0) return;
+    kill(program_, SIGKILL);
+    wait();
+}
+
+void Film::begin()
+{
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) file_.fail("cannot write");
+    const FileDescriptor input(ends[0]);
+    pipe_ = FileDescriptor(ends[1]);
+    said_ = FileDescriptor(memfd_create("ffmpeg", MFD_CLOEXEC));
+    if (!said_) file_.fail("cannot write");
+
+    const Coding& coding = codingOf(file_.path());
+    std::vector<std::string> words = {"ffmpeg",
+                                      "-loglevel",
+                                      "error",
+                                      "-nostdin",
+                                      "-y",
+                                      "-f",
+                                      "rawvideo",
+                                      "-pix_fmt",
+                                      "rgb24",
+                                      "-video_size",
+                                      formatted("%dx%d", width_, height_),
+                                      "-framerate",
+                                      formatted("%.6g", rate_),
+                                      "-i",
+                                      "pipe:0"};
+    words.insert(words.end(), coding.words.begin(), coding.words.end());
+    // One thread: the bytes of some codecs depend on their number.
+    for (const char* const word : {"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact",
+                                   "-map_metadata", "-1", "-f", coding.muxer})
+        words.push_back(word);
+    words.push_back("file:" + temporaryName(file_.path()));
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, input.get(), STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, said_.get(), STDERR_FILENO);
+    const int problem =
+        posix_spawnp(&program_, "ffmpeg", &files, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (problem == 0) return;
+    program_ = 0;
+    errno = problem;
+    file_.fail("cannot run ffmpeg for");
+}
+
+void Film::add(const Picture& picture)
+{
+    if (program_ == 0) {
+        width_ = even(picture.width);
+        height_ = even(picture.height);
+        begin();
+    }
+    const std::vector<std::uint8_t> pixels = pixelsOf(picture, width_, height_);
+    for (std::size_t done = 0; done < pixels.size();) {
+        const ssize_t taken = write(pipe_.get(), pixels.data() + done, pixels.size() - done);
+        if (taken < 0 && errno == EINTR) continue;
+        if (taken < 0) fail();
+        done += std::size_t(taken);
+    }
+}
+
+int Film::wait()
+{
+    pipe_ = FileDescriptor();
+    int status = 0;
+    while (waitpid(program_, &status, 0) < 0 && errno == EINTR) {
+    }
+    program_ = 0;
+    return status;
+}
+
+std::unique_ptr<OutputFile> Film::finish()
+{
+    if (program_ == 0 || wait() != 0) fail();
+    // It may have failed to write and ended well: then it has said something.
+    if (lseek(said_.get(), 0, SEEK_END) > 0) fail();
+    file_.finish();
+    return std::move(own_);
+}
+
+void Film::fail()
+{
+    if (program_ != 0) wait();
+    stopIfAsked(); // a signal from the keyboard ends both
+    std::string all(1 << 16, '\0'), line;
+    const ssize_t size = pread(said_.get(), all.data(), all.size(), 0);
+    all.resize(std::size_t(std::max<ssize_t>(size, 0)));
+    std::istringstream lines(all);
+    std::string last = "it ended early";
+    bool full = false;
+    while (std::getline(lines, line)) {
+        full = full || line.find(std::strerror(ENOSPC)) != std::string::npos;
+        if (!line.empty()) last = line;
+    }
+    if (full) last = std::strerror(ENOSPC);
+    throw Error(ErrorKind::Output,
+                "cannot write " + file_.path() + ": ffmpeg: " + last + insteadHint,
+                full && mayPass(ENOSPC));
+}
+
+} // namespace molsurf::tool

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Films of pictures, coded by the program ffmpeg.
+
+#include "molsurf/core/file_descriptor.h"
+#include "molsurf/io/output_file.h"
+#include "molsurf/picture/draw_mesh.h"
+
+#include <sys/types.h>
+
+#include <memory>
+#include <string>
+
+namespace molsurf::tool
+{
+
+constexpr double filmRate = 25.0; ///< pictures a second, unless the call has others
+
+/// Finds out before any work is done whether a film can be written.
+/// @throws Error(ErrorKind::Output) if there is no ffmpeg, or the film would go to a pipe
+void checkFilm(const std::string& path);
+
+/// A film that is being made: ffmpeg gets the pictures through a pipe and writes under the
+/// temporary name of the file.
+class Film
+{
+public:
+    /// @param[in] file  to be committed after finish(); its ending says how the film is coded
+    /// @param[in] rate  pictures a second
+    Film(OutputFile& file, double rate);
+    /// The same with a file of its own.
+    Film(std::unique_ptr<OutputFile> file, double rate);
+    /// Ends ffmpeg, if finish() has not.
+    ~Film();
+    Film(const Film&) = delete;
+    Film& operator=(const Film&) = delete;
+
+    OutputFile& file() { return file_; }
+
+    /// Adds a picture. All have the size of the first one, made even, as codecs want it.
+    /// @throws Error(ErrorKind::Output) if ffmpeg cannot be run or ends early
+    void add(const Picture& picture);
+
+    /// Waits for ffmpeg.
+    /// @return the file of its own, whole; null: it belongs to somebody else
+    /// @throws Error(ErrorKind::Output) if ffmpeg fails
+    std::unique_ptr<OutputFile> finish();
+
+private:
+    void begin();
+    [[noreturn]] void fail();
+    /// @return the status that ffmpeg ended with, as of waitpid()
+    int wait();
+
+    std::unique_ptr<OutputFile> own_;
+    OutputFile& file_;
+    double rate_;
+    int width_ = 0, height_ = 0; ///< [pixel]
+    pid_t program_ = 0;          ///< 0: it does not run
+    FileDescriptor pipe_, said_; ///< to its input; what it says
+};
+
+} // namespace molsurf::tool
