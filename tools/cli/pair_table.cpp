@@ -228,7 +228,7 @@ std::vector<Pair> runPairs()
         {"first-frame", Needs, {"frames", "trajectory"}},
         {"update-selections", Needs, {"frames", "trajectory"}},
         {"update-selections", Excludes, {"fields=v"}, ": its atoms have to be those of all frames"},
-        {{Shares}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.vdb has the grid pocket_id]"},
+        {{Shares}, Needs, {"frames", "trajectory"}},
         {"start", IsFor, {"frames", "trajectory"}, "--frames"},
         {"fields=v", Needs, {"frames", "trajectory"}, ": it is the way between frames", ofStored},
         {{FrameRows}, Needs, {"frames", "trajectory"}, " [hint: -o FILE.residues.csv for areas]"},
