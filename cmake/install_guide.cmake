@@ -31,7 +31,7 @@ foreach(page README.md ${guides})
   string(REGEX REPLACE "\n[|] \\[[^]\n]*\\]\\([^)\n]*(${other})\\.md[^\n]*" "" text "${text}")
   string(REGEX REPLACE "\\[([^]]*)\\]\\([^)]*(${other})\\.md[^)]*\\)" "\\1 of the sources" text "${text}")
   file(WRITE ${TO}/${page} "${text}")
-  string(REGEX MATCHALL "pictures/[a-zA-Z0-9_/.-]+[.]png" found "${text}")
+  string(REGEX MATCHALL "pictures/[a-zA-Z0-9_/.-]+[.](png|svg|gif)" found "${text}")
   list(APPEND pictures ${found})
 endforeach()
 

@@ -367,7 +367,7 @@ std::vector<Format> areaFormats()
 {
     constexpr const char* ofAreas = "table of areas";
     constexpr const char* ofPore = ""; // --pore says it
-    constexpr const char* withAreas = "atoms with areas as B factors";
+    constexpr const char* withAreas = "areas as B factors";
     constexpr unsigned built = Build | Batch;
     return {
         {"atoms.csv", built, Areas | AllFrames, ofAreas, "atoms", writeAreaTable},

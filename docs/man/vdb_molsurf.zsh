@@ -7,7 +7,7 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'view' 'pockets.vdb' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'pockets.vdb' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
     "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;

@@ -237,6 +237,7 @@ class Frames(ToolTest):
         before = self.times()["a.0001.usda"]
         self.check(0, *words, "--frames", "1-3", says="2 done before")
         self.assertEqual((self.times()["a.0001.usda"], clips()), (before, [f"a.000{n}.usda" for n in (1, 2, 3)]))
+        self.assertIn("double2[] active = [(1, 0), (2, 1), (3, 2)]", (self.folder / "a.usda").read_text())  # time and file
         self.check(1, *words, "--frames", "1-2", "--probe", "1.6", says=["a.0001.usda", "--force"])
         self.check(0, *words, "--frames", "1", "--probe", "1.6", "--force",
                    says="a.usda: without a.0002.usda and 1 more, of another input")
@@ -245,6 +246,12 @@ class Frames(ToolTest):
         self.check(1, *words, "--frames", "2", "--first-frame", "4", says=["a.usda", "--force"])
         self.assertEqual((self.folder / "a.usda").read_text(), "mine")
         self.check(2, *words, "--frames", "1", "--split", "group", "--group-by", "residues:30", says=["a.usda", "one mesh"])
+
+    def test_a_stage_has_the_fields_that_are_asked_for(self):
+        for words, fields in ([], []), (["--fields", "surface,mean_curvature"], ["mean_curvature"]):
+            self.check(0, CRAMBIN, *FAST, "--color", "hydrophobicity", *words, "-o", "a.usda", "--force")
+            text = (self.folder / "a.usda").read_text()
+            self.assertEqual(re.findall(r"float\[\] primvars:(\w+)", text), fields)
 
     def test_vertices_have_the_velocity(self):
         self.moving("--fps", "25", "-o", "a.ply", "-o", "a.glb")

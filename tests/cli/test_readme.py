@@ -44,7 +44,7 @@ def promised(block):
     files = [after for word, after in zip(words, words[1:]) if word in ("-o", ">", "2>")]
     if "--frames" in words:
         first = int(words[words.index("--first-frame") + 1]) if "--first-frame" in words else 1
-        files = [re.sub(r"\.(?!(?:csv|gif|mp4|webm)$)(\w+)$", rf".{first:04}.\1", name) for name in files]
+        files = [re.sub(r"(?<!\.pockets)\.(?!(?:csv|gif|mp4|webm)$)(\w+)$", rf".{first:04}.\1", name) for name in files]
     return [name for name in files if name != "-"]
 
 
