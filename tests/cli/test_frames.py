@@ -252,6 +252,9 @@ class Frames(ToolTest):
             self.check(0, CRAMBIN, *FAST, "--color", "hydrophobicity", *words, "-o", "a.usda", "--force")
             text = (self.folder / "a.usda").read_text()
             self.assertEqual(re.findall(r"float\[\] primvars:(\w+)", text), fields)
+        for scale, metres in ("blender", "1e-10"), ("blender=0.5", "2e-10"):
+            self.check(0, CRAMBIN, *FAST, "--for", scale, "-o", "a.usda", "--force")
+            self.assertIn(f"metersPerUnit = {metres}\n", (self.folder / "a.usda").read_text())
 
     def test_vertices_have_the_velocity(self):
         self.moving("--fps", "25", "-o", "a.ply", "-o", "a.glb")
