@@ -98,6 +98,18 @@ class Apbs(ToolTest):
         share = 1.8 / 3.0 - (0.4 / 3.0)  # of the edge from 0 to 3: the ball is cut off at 0
         self.assertAlmostEqual((1 / at[(1.5, 0.0, 0.0)] - 1 / 80) / (1 / 2 - 1 / 80), share, delta=0.01)
 
+    def test_a_short_piece_of_an_edge_counts(self):
+        """An edge of 3 A that a ball cuts over less than 0.4 A."""
+        run = self.folder_of([(1.5, 0.88, 0.0, 1.0, 0.9), (9.0, 0.0, 0.0, 0.0, 2.0)], "--voxel", 0.1, "--pdie", 2, "--sdie", 80,
+                             *self.grid("17 17 17", "48 48 48"))
+        at = {tuple(round(x, 6) for x in place): value for place, value in Map(run / "ion.dielx.dx").points()}
+        share = 2 * math.sqrt(0.9**2 - 0.88**2) / 3.0
+        self.assertAlmostEqual((1 / at[(1.5, 0.0, 0.0)] - 1 / 80) / (1 / 2 - 1 / 80), share, delta=0.01)
+
+    def test_the_middle_of_the_molecule_is_that_of_its_atoms(self):
+        run = self.folder_of([(0, 0, 0, 1, 3), (10, 0, 0, 1, 1)], *self.grid("33 33 33", "48 48 48", "mol 1"))
+        self.assertIn("gcent 5 0 0\n", (run / "apbs.in").read_text())
+
     def test_charges_without_a_radius_come_along(self):
         run = self.folder_of([(0, 0, 0, -0.5, 1.7), (1, 0, 0, 0.5, 0.0)])
         rows = [line.split() for line in (run / "ion.charges.pqr").read_text().splitlines() if line.startswith("ATOM")]

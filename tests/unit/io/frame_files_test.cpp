@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/frame_files.h"
 
+#include "molsurf/io/usda_text.h"
+
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace molsurf
@@ -25,6 +30,28 @@ TEST(FrameFiles, AreNamedByStemAndNumber)
     for (const char* none : {"name.vdb", "name.x1.vdb", "name.-1.vdb", "name.1e2.vdb"})
         expectName(none, std::string(none).substr(0, std::string(none).size() - 4).c_str(), {});
     expectName(".0001.vdb", ".0001", {}); // a number and nothing that it counts
+}
+
+void writeStage(const std::filesystem::path& path, const char* options)
+{
+    std::ofstream(path) << usdaFirstLine << "\n(\n    customLayerData = {\n"
+                        << usdaDataLine(usdaFrameOptions, options) << "\n    }\n)\n";
+}
+
+// A file is read again when it has changed, and not before.
+TEST(FrameFiles, OptionsAreThoseOfTheFileAsItIs)
+{
+    const auto path = std::filesystem::path(testing::TempDir()) / "frame_options.0001.usda";
+    FrameOptions known;
+    writeStage(path, "first");
+    EXPECT_EQ(known.of(std::filesystem::directory_entry(path)), "first");
+    const auto before = std::filesystem::last_write_time(path);
+    writeStage(path, "other");
+    std::filesystem::last_write_time(path, before);
+    EXPECT_EQ(known.of(std::filesystem::directory_entry(path)), "first");
+    std::filesystem::last_write_time(path, before + std::chrono::seconds(2));
+    EXPECT_EQ(known.of(std::filesystem::directory_entry(path)), "other");
+    std::filesystem::remove(path);
 }
 
 } // namespace
