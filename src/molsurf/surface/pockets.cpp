@@ -22,8 +22,7 @@ namespace
 std::int32_t pocketBefore(const openvdb::Int32Grid& ids, const openvdb::Vec3d& x,
                           const openvdb::Vec3d& normal)
 {
-    // measured: 4at1 and 4hhb at 0.5 Å, --surface ses: no vertex of a pocket's wall has its first
-    // voxel farther than this
+    // Of voxels up to 1 Å the first one of a pocket lies within this of its wall.
     constexpr double most = 1.0, step = 0.25; // [Å]
     const auto voxels = ids.getConstUnsafeAccessor();
     for (double t = step; t <= most; t += step) {
