@@ -139,7 +139,7 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
 // Meshes and pictures have some of the walls; the report and the .vdb have all.
 void keepWalls(const Call& call, const Progress& progress, Mesh& mesh)
 {
-    if (call.walls == Walls::All) return;
+    if (call.walls == Walls::All || mesh.triangles.empty()) return;
     const MeshPieces pieces = piecesOf(mesh, progress);
     std::vector<char> gone;
     for (const PieceMeasure& piece : pieces.measures)
@@ -261,6 +261,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
                     "--pocket-at " + call.atoms.pocketAt +
                         ": no pocket is within 4 Å of these atoms [hint: --pocket-cut 0 finds "
                         "shallow ones, too]");
+    keepWalls(call, terminal, result.mesh);
     checkRequired(call.required, result.mesh, result.report.surface);
     warnOfPaint(call, result.mesh, result.report);
     terminal.erase();
@@ -273,7 +274,6 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
     for (const auto& grid : result.grids()) grid->setCreator(creator);
 
-    keepWalls(call, terminal, result.mesh);
     if (call.center) centerMesh(call, result);
     if (!call.panels.empty()) call.panelSurfaces = makePanels(call, balls, result.mesh, terminal);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);

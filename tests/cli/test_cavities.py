@@ -51,6 +51,18 @@ class Cavities(ToolTest):
         self.assertEqual(surfaces[0], surfaces[1])
         self.assertAlmostEqual(outer / surfaces[0]["outer_volume"], 1, delta=0.01)
 
+    def test_walls_in_other_files(self):
+        call = [DATA / "1crn.pdb", "--surface", "ses", "--voxel", 0.7, "-q"]
+        self.check(0, *call, "--walls", "outer", "-o", "a.json")  # no mesh, and so nothing to leave out
+        self.check(0, *call, "--walls", "cavities", "-o", "a.msh", "-o", "a.poly")
+        text = (self.folder / "a.msh").read_text()
+        self.assertNotIn("outer wall", text)
+        self.assertIn('$PhysicalNames\n1\n2 2 "cavity 1"\n', text)
+        self.assertLess(max(map(abs, map(float, text.split("$Entities")[1].split("$End")[0].split()))), 1e3)
+        self.assertIn("\n1\n1 ", (self.folder / "a.poly").read_text())  # one hole
+        self.check(0, *call, "--walls", "outer", "--require", "watertight,components=1,cavities=0", "-o", "a.ply")
+        self.check(3, *call, "--require", "cavities=0", "-o", "b.ply", says="--require")
+
     def test_walls_that_are_not(self):
         (self.folder / "one.xyzr").write_text("0 0 0 1.7\n")
         self.check(1, "one.xyzr", "--walls", "cavities", "-o", "a.ply", says="the surface has no cavity")

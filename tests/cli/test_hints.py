@@ -456,6 +456,8 @@ CASES = {
          f"vdb_molsurf one.xyzr {FAST} --force -o x.png --turntable 2")],
     "tools/cli/pair_table.cpp": [
         ("--turntable 100", f"{FFMPEG} vdb_molsurf one.xyzr {FAST} -o y.mp4", f"{FFMPEG} vdb_molsurf one.xyzr {FAST} --size 60 -o y.mp4 --turntable 100"),
+        ("without --instances", "vdb_molsurf 1a8o.cif.gz --assembly 1 --instances -o a.forces.csv",
+         "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.forces.csv"),
         ("--surface smooth-sas", "vdb_molsurf 1crn.pdb --surface gaussian -o a.forces.csv",
          "vdb_molsurf 1crn.pdb --surface smooth-sas -o a.forces.csv"),
         ("--lambda 0.02, without --flow and --steps",

@@ -99,7 +99,8 @@ std::vector<Pair> areaPairs()
     unit.unless = hasAreasInClosedForm;
     const std::vector<Thing> forces = {{Areas, "forces", ofForces}, {"areas=forces", ofForces}};
     const auto rests = [](const Call& call) { return restsInClosedForm(call.options); };
-    return {areasWithout("coarse", " [hint: a run without --coarse]"),
+    return {{"instances", Excludes, forces, " [hint: without --instances]"},
+            areasWithout("coarse", " [hint: a run without --coarse]"),
             areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
             areasWithout("surface-of", " [hint: a run without --surface-of]"),
             areasWithout("instances", " [hint: --by-symmetry has those of a unit in the whole]"),

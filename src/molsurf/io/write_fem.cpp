@@ -23,10 +23,11 @@ namespace
 /// A wall of a mesh.
 struct Wall {
     std::string name; ///< "outer wall", "cavity 1"
+    std::size_t marker;
     std::vector<std::uint32_t> vertices, triangles;
 };
 
-/// The walls of a mesh by their markers, from 1 on.
+/// The walls of a mesh: marker 1 of outer ones, if there are any, 2 and on of cavities.
 std::vector<Wall> wallsOf(const Mesh& mesh)
 {
     const Progress nobody;
@@ -37,16 +38,17 @@ std::vector<Wall> wallsOf(const Mesh& mesh)
     std::stable_sort(cavities.begin(), cavities.end(), [&](std::size_t a, std::size_t b) {
         return pieces.measures[a].volume < pieces.measures[b].volume;
     });
-    std::vector<Wall> walls = {{"outer wall", {}, {}}};
+    std::vector<Wall> walls = {{"outer wall", 1, {}, {}}};
     std::vector<std::size_t> wallOf(pieces.measures.size(), 0);
     for (const std::size_t piece : cavities) {
         wallOf[piece] = walls.size();
-        walls.push_back({"cavity " + std::to_string(walls.size()), {}, {}});
+        walls.push_back({"cavity " + std::to_string(walls.size()), walls.size() + 1, {}, {}});
     }
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
         walls[wallOf[pieces.of[v]]].vertices.push_back(v);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
         walls[wallOf[pieces.of[mesh.triangles[t][0]]]].triangles.push_back(t);
+    if (walls.size() > 1 && walls.front().triangles.empty()) walls.erase(walls.begin());
     return walls;
 }
 
@@ -124,8 +126,7 @@ void places(const Mesh& mesh, TextOutput& out)
 void groups(const std::vector<Wall>& walls, TextOutput& out)
 {
     out << "$PhysicalNames\n" << walls.size() << "\n";
-    for (std::size_t n = 0; n < walls.size(); ++n)
-        out << "2 " << n + 1 << " \"" << walls[n].name << "\"\n";
+    for (const Wall& wall : walls) out << "2 " << wall.marker << " \"" << wall.name << "\"\n";
     out << "$EndPhysicalNames\n";
 }
 
@@ -139,16 +140,18 @@ void writePoly(const Mesh& mesh, OutputFile& file)
         << mesh.positions.size() << " 3 0 0\n";
     places(mesh, out);
     out << mesh.triangles.size() << " 1\n";
-    for (std::size_t n = 0; n < walls.size(); ++n)
-        for (const std::uint32_t t : walls[n].triangles) {
-            out << "1 0 " << n + 1 << "\n3";
+    for (const Wall& wall : walls)
+        for (const std::uint32_t t : wall.triangles) {
+            out << "1 0 " << wall.marker << "\n3";
             corners(mesh, t, out);
         }
-    out << walls.size() - 1 << "\n";
+    const auto isCavity = [](const Wall& wall) { return wall.marker > 1; };
+    out << std::count_if(walls.begin(), walls.end(), isCavity) << "\n";
     const RayScene scene(mesh);
-    for (std::size_t n = 1; n < walls.size(); ++n) {
-        const Vec3d x = pointInside(mesh, scene, walls[n]);
-        out << n << " " << x[0] << " " << x[1] << " " << x[2] << "\n";
+    for (const Wall& wall : walls) {
+        if (!isCavity(wall)) continue;
+        const Vec3d x = pointInside(mesh, scene, wall);
+        out << wall.marker - 1 << " " << x[0] << " " << x[1] << " " << x[2] << "\n";
     }
     out << "0\n";
     out.finish();
@@ -164,9 +167,9 @@ void writeMsh2(const Mesh& mesh, OutputFile& file)
     places(mesh, out);
     out << "$EndNodes\n$Elements\n" << mesh.triangles.size() << "\n";
     std::size_t element = 0;
-    for (std::size_t n = 0; n < walls.size(); ++n)
-        for (const std::uint32_t t : walls[n].triangles) {
-            out << ++element << " 2 2 " << n + 1 << " " << n + 1;
+    for (const Wall& wall : walls)
+        for (const std::uint32_t t : wall.triangles) {
+            out << ++element << " 2 2 " << wall.marker << " " << wall.marker;
             corners(mesh, t, out);
         }
     out << "$EndElements\n";
@@ -180,27 +183,27 @@ void writeMsh4(const Mesh& mesh, OutputFile& file)
     out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
     groups(walls, out);
     out << "$Entities\n0 0 " << walls.size() << " 0\n";
-    for (std::size_t n = 0; n < walls.size(); ++n) {
+    for (const Wall& wall : walls) {
         openvdb::BBoxd box;
-        for (const std::uint32_t v : walls[n].vertices) box.expand(Vec3d(mesh.positions[v]));
-        out << n + 1;
+        for (const std::uint32_t v : wall.vertices) box.expand(Vec3d(mesh.positions[v]));
+        out << wall.marker;
         for (const Vec3d& end : {box.min(), box.max()})
             out << " " << end[0] << " " << end[1] << " " << end[2];
-        out << " 1 " << n + 1 << " 0\n";
+        out << " 1 " << wall.marker << " 0\n";
     }
     out << "$EndEntities\n$Nodes\n"
         << walls.size() << " " << mesh.positions.size() << " 1 " << mesh.positions.size() << "\n";
-    for (std::size_t n = 0; n < walls.size(); ++n) {
-        out << "2 " << n + 1 << " 0 " << walls[n].vertices.size() << "\n";
-        for (const std::uint32_t v : walls[n].vertices) out << v + 1 << "\n";
-        for (const std::uint32_t v : walls[n].vertices) place(mesh.positions[v], out);
+    for (const Wall& wall : walls) {
+        out << "2 " << wall.marker << " 0 " << wall.vertices.size() << "\n";
+        for (const std::uint32_t v : wall.vertices) out << v + 1 << "\n";
+        for (const std::uint32_t v : wall.vertices) place(mesh.positions[v], out);
     }
     out << "$EndNodes\n$Elements\n"
         << walls.size() << " " << mesh.triangles.size() << " 1 " << mesh.triangles.size() << "\n";
     std::size_t element = 0;
-    for (std::size_t n = 0; n < walls.size(); ++n) {
-        out << "2 " << n + 1 << " 2 " << walls[n].triangles.size() << "\n";
-        for (const std::uint32_t t : walls[n].triangles) {
+    for (const Wall& wall : walls) {
+        out << "2 " << wall.marker << " 2 " << wall.triangles.size() << "\n";
+        for (const std::uint32_t t : wall.triangles) {
             out << ++element;
             corners(mesh, t, out);
         }
