@@ -450,7 +450,7 @@ CASES = {
     "picture/legend_svg.cpp": [
         ("--color chain", f"vdb_molsurf 1crn.pdb {FAST} -o a.legend.svg", f"vdb_molsurf 1crn.pdb {FAST} --color chain -o a.legend.svg")],
     "tools/film.cpp": [
-        ("-o NAME.png writes the pictures one by one", f"PATH=/none $(command -v vdb_molsurf) one.xyzr {FAST} -o x.mp4 --turntable 2",
+        ("-o NAME.png writes the pictures one by one", f"PATH=/none \"$(command -v vdb_molsurf)\" one.xyzr {FAST} -o x.mp4 --turntable 2",
          f"vdb_molsurf one.xyzr {FAST} -o x.png --turntable 2"),
         ("-o NAME.png writes the pictures one by one", f"ln -sf /bin/false ffmpeg; PATH=.:$PATH vdb_molsurf one.xyzr {FAST} -o x.mp4 --turntable 2",
          f"vdb_molsurf one.xyzr {FAST} --force -o x.png --turntable 2")],
