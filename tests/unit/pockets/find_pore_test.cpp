@@ -125,6 +125,18 @@ TEST(FindPore, EveryRadiusIsTheClearanceOfItsPlace)
     }
 }
 
+// The gap about a ball that fills a tube is closed, and dents in the outside are no pore.
+TEST(FindPore, AClosedTubeIsNotPassedOutside)
+{
+    const Tube tube{[](double) { return 5.0; }, 16, 1.7, 12.0};
+    for (const double reach : {9.0, 12.0, 15.0}) {
+        const std::vector<Ball> balls = plugged(tube, 4.5);
+        const Report::Pore pore = findPore(balls, tube.ends(reach), nobody);
+        EXPECT_LT(pore.narrowest(), 0.0) << reach;
+        EXPECT_NEAR(pore.length(), 2.0 * reach, 1.0) << reach;
+    }
+}
+
 // By Ohm's rule a straight tube of radius r and length l has pi r^2 / (rho l).
 TEST(FindPore, AStraightTubeConductsByOhmsRule)
 {
