@@ -120,10 +120,13 @@ Clearance::Clearance(const std::vector<Ball>& balls) : balls_(balls), index_(bal
 double Clearance::at(const Vec3d& x) const
 {
     double best = std::numeric_limits<double>::infinity();
-    for (double gap = 2.0; best > gap; gap *= 2.0)
+    double gap = 1.0;
+    do { // until no ball that was not looked at can be nearer
+        gap *= 2.0;
         index_.forEachNear(x, x, gap, [&](const Ball& ball, std::int32_t) {
             best = std::min(best, (x - ball.center).length() - ball.radius);
         });
+    } while (best > gap);
     return best;
 }
 

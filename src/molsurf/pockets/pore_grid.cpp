@@ -93,7 +93,9 @@ void PoreGrid::fillLayer(int layer, const std::vector<Ball>& sorted, double larg
 void PoreGrid::findOpen(int layer)
 {
     const std::size_t begin = index({0, 0, layer});
-    std::vector<char> walled(std::size_t(count_[0]) * std::size_t(count_[1]));
+    // The least room on the way from each point. It is a wall for a narrow point only where it is
+    // narrower still: a dent in the outside has none in front of it.
+    std::vector<float> least(std::size_t(count_[0]) * std::size_t(count_[1]));
     for (const auto& way : directions) {
         // Each point is behind the one that its way comes from.
         for (int row = 0; row < count_[1]; ++row) {
@@ -102,9 +104,9 @@ void PoreGrid::findOpen(int layer)
                 const int i = way[0] >= 0 ? column : count_[0] - 1 - column;
                 const std::size_t at = index({i, j, 0});
                 const std::array<int, 3> from = {i - way[0], j - way[1], 0};
-                const bool wall =
-                    has(from) && (walled[index(from)] || room_[begin + index(from)] < wallRoom);
-                walled[at] = wall;
+                least[at] =
+                    has(from) ? std::min(least[index(from)], room_[begin + index(from)]) : mostRoom;
+                const bool wall = least[at] < std::min(wallRoom, room_[begin + at]);
                 open_[begin + at] = std::uint8_t(open_[begin + at] + !wall);
             }
         }

@@ -87,6 +87,56 @@ TEST(FindPore, TheBottleneckOfAnHourglassIsExact)
     EXPECT_NEAR(found.narrowest(), 1.8, 1e-9);
 }
 
+/// f at a place, by all balls.
+double roomAmong(const std::vector<Ball>& balls, const Vec3d& x)
+{
+    double least = 1e30;
+    for (const Ball& ball : balls)
+        least = std::min(least, (x - ball.center).length() - ball.radius);
+    return least;
+}
+
+/// A tube of radius 5 with a ball in its middle.
+std::vector<Ball> plugged(const Tube& tube, double radius)
+{
+    std::vector<Ball> balls = tube.balls();
+    balls.push_back({tube.middle, radius, 999});
+    return balls;
+}
+
+// Also where a pore narrows fast: at a ball in it, at its mouths.
+TEST(FindPore, EveryRadiusIsTheClearanceOfItsPlace)
+{
+    const Tube wide{[](double) { return 5.0; }};
+    const Tube upright{wide.ring, 16, 1.7, 12.0, Vec3d(0.0, 0.0, 1.0), Vec3d(0.0)};
+    const Tube wavy{[](double h) { return 6.5 + 1.5 * std::sin(1.3 * h); }};
+    const std::vector<std::pair<Tube, std::vector<Ball>>> cases = {
+        {wide, plugged(wide, 3.0)},
+        {upright, plugged(upright, 4.0)},
+        {upright, plugged(upright, 3.0)},
+        {wavy, plugged(wavy, 2.0)},
+    };
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const auto& [tube, balls] = cases[i];
+        const Report::Pore pore = findPore(balls, tube.ends(12.0), nobody);
+        ASSERT_GT(pore.stations.size(), 40u) << i;
+        for (const Report::Pore::Station& s : pore.stations)
+            EXPECT_NEAR(s.radius, roomAmong(balls, placeOf(s)), 1e-6) << i << " " << placeOf(s);
+    }
+}
+
+// The gap about a ball that fills a tube is closed, and dents in the outside are no pore.
+TEST(FindPore, AClosedTubeIsNotPassedOutside)
+{
+    const Tube tube{[](double) { return 5.0; }, 16, 1.7, 12.0};
+    for (const double reach : {9.0, 12.0, 15.0}) {
+        const std::vector<Ball> balls = plugged(tube, 4.5);
+        const Report::Pore pore = findPore(balls, tube.ends(reach), nobody);
+        EXPECT_LT(pore.narrowest(), 0.0) << reach;
+        EXPECT_NEAR(pore.length(), 2.0 * reach, 1.0) << reach;
+    }
+}
+
 // By Ohm's rule a straight tube of radius r and length l has pi r^2 / (rho l).
 TEST(FindPore, AStraightTubeConductsByOhmsRule)
 {
@@ -179,6 +229,19 @@ TEST(FindPore, RefusesWhatHasNoWay)
         findPore(balls, {{{tube.at(2.9, 0.0, -6.0), false}, {middle, true}}, Vec3d(0.0)}, nobody)
             .narrowest(),
         2.3, 0.05);
+}
+
+// However far the nearest ball is, and whatever the class of its radius.
+TEST(Clearance, IsThatOfAllBalls)
+{
+    const Tube tube{[](double) { return 9.0; }, 24};
+    const std::vector<Ball> balls = plugged(tube, 4.0);
+    const Clearance clearance(balls);
+    for (double h = -20.0; h <= 20.0; h += 0.5)
+        for (double a = -15.0; a <= 15.0; a += 0.5) {
+            const Vec3d x = tube.at(a, 0.3 * a, h);
+            EXPECT_NEAR(clearance.at(x), roomAmong(balls, x), 1e-12) << x;
+        }
 }
 
 // The largest ball of a plane among random balls is that of a search with many starts.
