@@ -180,6 +180,15 @@ class Pictures(ToolTest):
         self.assertEqual(drawn("a.sdf", 2 * old(2)), orders[0])
         self.assertEqual(drawn("a.sdf", old(2) + old(3)), single)
 
+    def test_what_shows_is_not_warned_of(self):
+        words = [CRAMBIN, *FAST, "--surface", "ses"]
+        for more in (["--walls", "outer", "-o", "a.glb", "-o", "a.html"], ["--walls", "outer", "-o", "a.usda"],
+                     ["--show", "sticks", "--opacity", "0.3", "--legend", "on", "--size", "300", "-o", "a.png"],
+                     ["--for", "blender", "--legend", "on", "--size", "300", "-o", "b.png", "-o", "b.vdb"]):
+            self.assertNotIn(b"warning", self.check(0, *words, *more).stderr)
+        self.check(0, *words, "--legend", "on", "--size", "100", "-o", "c.png", says="--legend is for --color or --show")
+        self.check(0, *words, "--walls", "outer", "-o", "c.json", says="--walls is for .ply")
+
     def test_atoms_beside_the_surface(self):
         """Sulphur of the disulfides, that no surface shows, has its colour in a faint one and where it is cut."""
         words = [CRAMBIN, *FAST, "--size", "200", "--legend", "off", "--style", "flat"]

@@ -371,10 +371,10 @@ OptionGroup frameOptions()
               Build, MOLSURF_OF(updateSelections)),
          count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
                "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
-         shownIn(Grids | VertexCurvatures | Stage,
+         shownIn(Grids | VertexCurvatures | Stage | Moving,
                  with(number("fps", "N",
                              "frames per second, such as 24: velocities of --fields v\n"
-                             "are per second, and a .usda plays at this rate",
+                             "are per second; a .usda and a film play at this rate",
                              "", Build, 1e-3, 1e6, "a number from 0.001 to 1e6", MOLSURF_OF(fps)),
                       [](Option& o) {
                           o.stored = [](const Call& c) {
@@ -415,7 +415,7 @@ OptionGroup surfaceOptions()
     return {"Surface",
             {setting("surface", structures), setting("voxel", structures), shownIn(Levels, levels),
              setting("blobbiness", structures), setting("fill-cavities", wholes | Compare),
-             shownIn(Triangles | Pixels,
+             shownIn(Triangles | VertexCurvatures | Stage | ColorChoices | Pixels,
                      word("walls", "WORD",
                           "closed pieces that meshes and pictures have: all; outer,\n"
                           "without cavities; or cavities alone",
