@@ -435,6 +435,21 @@ OptionGroup resolutionOptions()
              setting("match-volume", wholes | Compare)}};
 }
 
+/// The colours that convert can give, and their words in help texts.
+std::vector<ColorBy> storableColors()
+{
+    std::vector<ColorBy> colors = completeColors();
+    colors.erase(std::remove(colors.begin(), colors.end(), ColorBy::Pocket), colors.end());
+    return colors;
+}
+
+Values storableColorHelp()
+{
+    Values words = colorHelp();
+    words.erase(std::remove(words.begin(), words.end(), nameOf(ColorBy::Pocket)), words.end());
+    return words;
+}
+
 OptionGroup groupOptions()
 {
     const Option groups =
@@ -451,12 +466,12 @@ OptionGroup groupOptions()
              });
     const Option shown =
         with(word("color", "WORD",
-                  wrapped(joinWords(colorHelp(), ", ") +
+                  wrapped(joinWords(storableColorHelp(), ", ") +
                               "; chain and group are of grids chain_id and group_id, "
                               "the others of Cd so coloured or of the mesh; those of "
                               "Cd unless given",
                           helpWidth),
-                  Convert, MOLSURF_OF(options.color), completeColors()),
+                  Convert, MOLSURF_OF(options.color), storableColors()),
              [](Option& o) { o.preset = ""; });
     return {"Groups",
             {groups, setting("group-by", surfaces), setting("split", wholes),
