@@ -141,6 +141,9 @@ class Pictures(ToolTest):
         _, walls = self.picture(*words, "--opacity", "0.2", "--all-walls")
         self.assertLess(sum(sum(p) for row in walls for p in row), sum(sum(p) for row in faint for p in row))
         self.check(0, CRAMBIN, *FAST, "-o", "b.png", "--all-walls", says="--all-walls is for --opacity")
+        self.check(0, CRAMBIN, *FAST, "-o", "c.png", "--size", "60", "--clip", "-1000", says="--clip -1000: it cuts all of the surface away, expected more than -")
+        said = self.check(0, CRAMBIN, *FAST, "-o", "d.png", "--size", "60", "--clip", "-6").stderr
+        self.assertNotIn(b"warning", said)
         self.check(2, CRAMBIN, "-o", "b.png", "--opacity", "0", says="0.01 to 1")
         self.check(2, CRAMBIN, "-o", "b.png", "--clip", "near", says="a number of Å")
 
