@@ -139,7 +139,7 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
 // Meshes and pictures have some of the walls; the report and the .vdb have all.
 void keepWalls(const Call& call, const Progress& progress, Mesh& mesh)
 {
-    if (call.walls == Walls::All || mesh.triangles.empty()) return;
+    if (call.walls == Walls::All || mesh.triangles.empty()) return; // no file has a mesh
     const MeshPieces pieces = piecesOf(mesh, progress);
     std::vector<char> gone;
     for (const PieceMeasure& piece : pieces.measures)

@@ -11,6 +11,7 @@
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/panels.h"
 #include "molsurf/picture/view.h"
+#include "molsurf/spline/curvature.h"
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
 
@@ -127,13 +128,30 @@ void takeRange(const std::optional<std::array<double, 2>>& range, BallSet& atoms
 namespace
 {
 
+/// The call without what pictures do not show, and without atoms that the first structure has.
+Call panelCall(Call call)
+{
+    SurfaceOptions& options = call.options;
+    options.pockets = options.ballAreas = options.contacts = options.interfaces = false;
+    options.curvatureTotals = options.energy = options.closedForm = false;
+    options.areasOf.reset();
+    auto& fields = options.fields; // those of vertices are of the mesh
+    fields.erase(std::remove_if(fields.begin(), fields.end(),
+                                [](const auto& field) { return !findCurvatureField(field); }),
+                 fields.end());
+    call.atoms.pore.clear();
+    call.atoms.pocketAt.clear();
+    call.atoms.model = 0;
+    call.viewed.clear(); // the first structure says where the eye is
+    return call;
+}
+
 PanelSurface makePanel(const Call& call, const std::string& file,
                        const std::optional<std::array<double, 2>>& range, Terminal& terminal)
 {
     PanelSurface panel;
     panel.name = inputStem(file);
-    Call other = call;
-    other.viewed.clear(); // the first structure says where the eye is
+    const Call other = panelCall(call);
     panel.picture = call.picture;
     panel.picture.model.reset();
     panel.picture.notes.clear();
@@ -141,8 +159,8 @@ PanelSurface makePanel(const Call& call, const std::string& file,
     terminal.erase();
     if (!call.quiet) say(description);
     takeRange(range, balls);
-    checkCost(balls, call.options, limitsOf(call), terminal);
-    MolecularSurface result = makePrototypes(balls, call.options, &terminal);
+    checkCost(balls, other.options, limitsOf(call), terminal);
+    MolecularSurface result = makePrototypes(balls, other.options, &terminal);
     terminal.erase();
     const auto& flow = result.report.evolution;
     if (flow && !flow->converged) result.report.warnings.push_back("not converged");

@@ -27,6 +27,7 @@
 #include "molsurf/io/write_volume.h"
 #include "molsurf/picture/draw_profile.h"
 #include "molsurf/picture/legend_svg.h"
+#include "molsurf/picture/view.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
@@ -194,13 +195,26 @@ Drawn drawnOf(const Writing& w)
     return {w.call, w.atoms, w.mesh, w.shown.borders, w.shown.legend, w.progress};
 }
 
+/// Says that pictures show nothing of the surface, since --clip cuts all of it away.
+void warnOfClip(const Writing& w)
+{
+    const DrawOptions options = pictureOf(w.call, w.atoms, w.mesh, false, w.progress);
+    if (!options.clip || w.output.turn != 0.0 || w.call.quiet) return;
+    const double low = chooseView(w.mesh, options).low;
+    if (*options.clip > low) return;
+    say(formatted("warning: --clip %g: it cuts all of the surface away, expected more than %.1f",
+                  *options.clip, low));
+}
+
 void writePicture(const Writing& w, OutputFile& file)
 {
+    warnOfClip(w);
     writePng(drawResult(drawnOf(w), w.output.turn, false), file);
 }
 
 void writeFilm(const Writing& w, OutputFile& file)
 {
+    warnOfClip(w);
     if (w.output.film) return w.output.film->add(drawResult(drawnOf(w), 0.0, true));
     Film film(file, w.call.fps > 0.0 ? w.call.fps : filmRate);
     const int count = w.call.turntable;

@@ -64,7 +64,7 @@ _vdb_molsurf()
         "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx cxc pml html json png legend.svg view" ;;
         "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
         "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
-        "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket" ;;
+        "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature" ;;
         "convert":--view) words="auto" ;;
         "convert":--background) words="transparent" ;;
         "convert":--style) words="soft glossy outline flat" ;;

@@ -79,7 +79,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "bricks plan"' -l
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "bricks plan"' -l flat-values -d 'a point has the value of one atom, not a blend of nearby ones'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "bricks plan"' -l outward -r -d 'potentials are taken A outside of the surface [Å]'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l crisp -d 'mesh files: triangles are cut where colours meet'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "convert"' -l color -x -a 'none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket' -d 'chain, group, element, residue (or residue-type),'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "convert"' -l color -x -a 'none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature' -d 'chain, group, element, residue (or residue-type),'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l areas -x -a 'atoms residues contacts interfaces pockets pore forces' -d 'tables for the report, by commas: atoms, residues,'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l contacts -x -a 'atom residue chain' -d 'contact areas between atoms, residues or chains: atom,'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l pockets -d 'pockets of the surface, for the report and .pockets.csv'

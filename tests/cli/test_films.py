@@ -62,7 +62,8 @@ class Films(ToolTest):
 
     def test_endings(self):
         for ending, codec in (("mp4", "libx264"), ("webm", "libvpx-vp9"), ("GIF", "split[a][b];[a]palettegen[p];[b][p]paletteuse")):
-            self.check(0, CRAMBIN, *FAST, "--turntable", 2, "--size", 60, "--fps", 12.5, "-o", f"a.{ending}", env=self.env)
+            said = self.check(0, CRAMBIN, *FAST, "--turntable", 2, "--size", 60, "--fps", 12.5, "-o", f"a.{ending}", env=self.env)
+            self.assertNotIn(b"warning", said.stderr)
             command, _, pictures = self.film(f"a.{ending}")
             self.assertIn(codec, command)
             self.assertEqual(command[command.index("-framerate") + 1], "12.5")

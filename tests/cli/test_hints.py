@@ -360,7 +360,9 @@ CASES = {
         ("ends where atoms are on all sides", "vdb_molsurf 1grm.pdb.gz --pore '40,-12,3 -> 40,12,3' -o a.pore.csv",
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv")],
     "surface/pockets.cpp": [
-        ("--voxel 0.7", "vdb_molsurf 1crn.pdb --voxel 1 -o a.pockets.csv", "vdb_molsurf 1crn.pdb --voxel 0.7 -o b.pockets.csv")],
+        ("--voxel 0.7", "vdb_molsurf 1crn.pdb --voxel 1 -o a.pockets.csv", "vdb_molsurf 1crn.pdb --voxel 0.7 -o b.pockets.csv"),
+        ("--surface ses", "vdb_molsurf 1crn.pdb --color pocket --voxel 0.7 -o a.ply",
+         "vdb_molsurf 1crn.pdb --color pocket --voxel 0.7 --surface ses -o b.ply")],
     "tools/build.cpp": [
         ("--pocket-cut 0 finds", "vdb_molsurf 1ubq.pdb --pocket-at 'resid 10' -o a.pockets.csv",
          "vdb_molsurf 1ubq.pdb --pocket-at 'resid 10' --pocket-cut 0 -o a.pockets.csv"),

@@ -82,6 +82,15 @@ class Panels(ToolTest):
         self.check(0, DATA / "4at1.ent.gz", "--panel", DATA / "1ubq.pdb", "--voxel", 2, "--show", "(ZN)=spheres", "--label", "B/(ZN)=zinc",
                    "--size", 300, "-o", "b.png", says="1ubq.pdb: PDB")
 
+    def test_analyses_of_the_first_alone(self):
+        """What the first structure is asked for beside its picture is no matter of the panel, which may not have it."""
+        more = ["--panel", DATA / "1crn.pdb", "--size", 100, "-o", "a.png", "--force"]
+        self.check(0, DATA / "1grm.pdb.gz", "--surface", "vdw", "--voxel", 1, "--pore", "auto", "-o", "a.pore.csv", *more)
+        self.check(0, DATA / "1ubq.pdb", "--pocket-at", "resid 60", "--pocket-cut", 0, "--surface", "ses", "--voxel", 0.7,
+                   "--color", "pocket", "-o", "a.pockets.csv", *more)
+        self.check(0, DATA / "1d3z.pdb.gz", "--model", 2, "--surface", "vdw", "--voxel", 1, "--interfaces", "--group-by", "chain", "--pockets",
+                   "--fields", "spline,pocket_depth", "-o", "a.vdb", *more, says="1crn.pdb: PDB")
+
     def test_refused(self):
         self.rod("a.pdb", 4)
         words = ["a.pdb", "--surface", "vdw", "--voxel", 1, "-o", "a.png"]

@@ -141,8 +141,56 @@ class Pictures(ToolTest):
         _, walls = self.picture(*words, "--opacity", "0.2", "--all-walls")
         self.assertLess(sum(sum(p) for row in walls for p in row), sum(sum(p) for row in faint for p in row))
         self.check(0, CRAMBIN, *FAST, "-o", "b.png", "--all-walls", says="--all-walls is for --opacity")
+        self.check(0, CRAMBIN, *FAST, "-o", "c.png", "--size", "60", "--clip", "-1000", says="--clip -1000: it cuts all of the surface away, expected more than -")
+        said = self.check(0, CRAMBIN, *FAST, "-o", "d.png", "--size", "60", "--clip", "-6").stderr
+        self.assertNotIn(b"warning", said)
         self.check(2, CRAMBIN, "-o", "b.png", "--opacity", "0", says="0.01 to 1")
         self.check(2, CRAMBIN, "-o", "b.png", "--clip", "near", says="a number of Å")
+
+    def test_orders_of_molecules(self):
+        """The orders of bonds in .sdf, old and new, and .mol2: of all molecules alike, or they are not known."""
+        atoms = [("C", 0, 0), ("C", 1.5, 0), ("O", 2.1, 1.05), ("O", 2.2, -1.15)]
+
+        def bonds(order, form):
+            return "".join(form.format(n, i, j, order if n == 2 else 1) for n, (i, j) in enumerate(((1, 2), (2, 3), (2, 4)), 1))
+
+        def old(order):
+            return ("t\n     program        3D\n\n  4  3  0  0  0  0            999 V2000\n" +
+                    "".join(f"{x:10.4f}{y:10.4f}{0.1 * x:10.4f} {e}   0  0\n" for e, x, y in atoms) +
+                    bonds(order, "{1:3}{2:3}{3:3}  0\n") + "M  END\n$$$$\n")
+
+        def new(order):
+            return ("t\n     program        3D\n\n  0  0  0     0  0            999 V3000\nM  V30 BEGIN CTAB\nM  V30 BEGIN ATOM\n" +
+                    "".join(f"M  V30 {i} {e} {x} {y} {0.1 * x} 0\n" for i, (e, x, y) in enumerate(atoms, 1)) +
+                    "M  V30 END ATOM\nM  V30 BEGIN BOND\n" + bonds(order, "M  V30 {0} {3} {1} {2}\n") + "M  V30 END BOND\nM  END\n$$$$\n")
+
+        def mol2(order):
+            return ("@<TRIPOS>MOLECULE\nx\n 4 3 1\nSMALL\nUSER\n\n@<TRIPOS>ATOM\n" +
+                    "".join(f"{i} {e}{i} {x} {y} {0.1 * x} {e}.2 1 ACT1 0\n" for i, (e, x, y) in enumerate(atoms, 1)) +
+                    "@<TRIPOS>BOND\n" + bonds(order, "{0} {1} {2} {3}\n"))
+
+        def drawn(name, text):
+            (self.folder / name).write_text(text)
+            return self.picture(name, *FAST, "--surface", "vdw", "--show", "orders", "--opacity", "0.05", "--view", "0,0,1",
+                                "--size", "200", "--legend", "off")
+        single = drawn("a.sdf", old(1))
+        orders = [drawn("a.sdf", old(order)) for order in (2, 3, 4)]
+        for n, picture in enumerate(orders):
+            self.assertNotIn(picture, [single, *orders[:n]])
+        self.assertEqual(drawn("a.sdf", new(2)), orders[0])
+        self.assertEqual(drawn("a.mol2", mol2(2)), orders[0])
+        self.assertEqual(drawn("a.mol2", mol2("ar")), orders[2])
+        self.assertEqual(drawn("a.sdf", 2 * old(2)), orders[0])
+        self.assertEqual(drawn("a.sdf", old(2) + old(3)), single)
+
+    def test_what_shows_is_not_warned_of(self):
+        words = [CRAMBIN, *FAST, "--surface", "ses"]
+        for more in (["--walls", "outer", "-o", "a.glb", "-o", "a.html"], ["--walls", "outer", "-o", "a.usda"],
+                     ["--show", "sticks", "--opacity", "0.3", "--legend", "on", "--size", "300", "-o", "a.png"],
+                     ["--for", "blender", "--legend", "on", "--size", "300", "-o", "b.png", "-o", "b.vdb"]):
+            self.assertNotIn(b"warning", self.check(0, *words, *more).stderr)
+        self.check(0, *words, "--legend", "on", "--size", "100", "-o", "c.png", says="--legend is for --color or --show")
+        self.check(0, *words, "--walls", "outer", "-o", "c.json", says="--walls is for .ply")
 
     def test_atoms_beside_the_surface(self):
         """Sulphur of the disulfides, that no surface shows, has its colour in a faint one and where it is cut."""

@@ -87,6 +87,21 @@ class Pockets(ToolTest):
         self.assertEqual({v[at] for v in outside}, {0})
         self.assertIn("1: ", (self.folder / "two.html").read_text())
 
+    def test_pockets_that_the_surface_closes(self):
+        words = ["--color", "pocket", "--voxel", "0.7", "-o", "a.ply", "-o", "a.pockets.csv", "--force"]
+        self.check(0, CRAMBIN, *words, says="warning: --color pocket: 1 of 1 pocket has no wall on this surface [hint: --surface ses]")
+        said = self.check(0, CRAMBIN, *words, "--surface", "ses")
+        self.assertNotIn(b"no wall", said.stderr)
+
+    def test_no_pocket_looks_like_what_is_none(self):
+        self.check(0, DATA / "1ubq.pdb", "--surface", "ses", "--color", "pocket", "--pocket-cut", "0", "--voxel", "0.7", "-o", "a.ply")
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        at = names.index("pocket")
+        colors = {v[at]: v[-3:] for v in vertices}
+        self.assertGreater(max(colors), 8)
+        for pocket, color in colors.items():
+            (self.assertGreater if pocket else self.assertEqual)(max(color) - min(color), 30 if pocket else 0)
+
     def test_a_table_without_pockets_is_empty(self):
         self.check(0, CRAMBIN, "--probe-in", 3, "--voxel", 1, "-o", "none.pockets.csv", says=["pockets: 0"])
         self.assertEqual(self.table("none.pockets.csv")[1], [])

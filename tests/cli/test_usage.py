@@ -122,6 +122,8 @@ class WrongCalls(ToolTest):
 
     def test_options_of_other_verbs(self):
         self.refuse("compare", CRAMBIN, CRAMBIN, "--show", "sticks", says="--show is for build, batch")
+        self.refuse("convert", "a.vdb", "--color", "pocket", "-o", "a.ply", says="--color: expected none")
+        self.assertNotIn(b"pocket", self.check(0, "convert", "--help").stdout)
         self.refuse("bricks", "plan", CRAMBIN, "-o", "p.json", "--bricks", 2, "--split", "group",
                     says="--split is for build, batch, not for bricks plan")
         self.refuse("info", "-q", CRAMBIN, says="-q")

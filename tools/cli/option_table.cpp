@@ -371,10 +371,10 @@ OptionGroup frameOptions()
               Build, MOLSURF_OF(updateSelections)),
          count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
                "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
-         shownIn(Grids | VertexCurvatures | Stage,
+         shownIn(Grids | VertexCurvatures | Stage | Moving,
                  with(number("fps", "N",
                              "frames per second, such as 24: velocities of --fields v\n"
-                             "are per second, and a .usda plays at this rate",
+                             "are per second; a .usda and a film play at this rate",
                              "", Build, 1e-3, 1e6, "a number from 0.001 to 1e6", MOLSURF_OF(fps)),
                       [](Option& o) {
                           o.stored = [](const Call& c) {
@@ -415,7 +415,7 @@ OptionGroup surfaceOptions()
     return {"Surface",
             {setting("surface", structures), setting("voxel", structures), shownIn(Levels, levels),
              setting("blobbiness", structures), setting("fill-cavities", wholes | Compare),
-             shownIn(Triangles | Pixels,
+             shownIn(Triangles | VertexCurvatures | Stage | ColorChoices | Pixels,
                      word("walls", "WORD",
                           "closed pieces that meshes and pictures have: all; outer,\n"
                           "without cavities; or cavities alone",
@@ -435,6 +435,21 @@ OptionGroup resolutionOptions()
              setting("match-volume", wholes | Compare)}};
 }
 
+/// The colours that convert can give, and their words in help texts.
+std::vector<ColorBy> storableColors()
+{
+    std::vector<ColorBy> colors = completeColors();
+    colors.erase(std::remove(colors.begin(), colors.end(), ColorBy::Pocket), colors.end());
+    return colors;
+}
+
+Values storableColorHelp()
+{
+    Values words = colorHelp();
+    words.erase(std::remove(words.begin(), words.end(), nameOf(ColorBy::Pocket)), words.end());
+    return words;
+}
+
 OptionGroup groupOptions()
 {
     const Option groups =
@@ -451,12 +466,12 @@ OptionGroup groupOptions()
              });
     const Option shown =
         with(word("color", "WORD",
-                  wrapped(joinWords(colorHelp(), ", ") +
+                  wrapped(joinWords(storableColorHelp(), ", ") +
                               "; chain and group are of grids chain_id and group_id, "
                               "the others of Cd so coloured or of the mesh; those of "
                               "Cd unless given",
                           helpWidth),
-                  Convert, MOLSURF_OF(options.color), completeColors()),
+                  Convert, MOLSURF_OF(options.color), storableColors()),
              [](Option& o) { o.preset = ""; });
     return {"Groups",
             {groups, setting("group-by", surfaces), setting("split", wholes),

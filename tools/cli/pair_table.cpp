@@ -183,9 +183,12 @@ std::vector<Pair> surfacePairs()
         {"match-volume", IsFor, {"resolution"}},
         {"legend",
          IsFor,
-         {"color"},
+         {"color", "show"},
          "",
-         [](const Call& call) { return (call.verb & (Convert | Compare)) != 0; }},
+         [](const Call& call) {
+             return (call.verb & (Convert | Compare)) != 0 ||
+                    call.options.color != ColorBy::Nothing; // --for chooses colours
+         }},
         {"all-walls", IsFor, {"opacity"}},
         ofValues("range"),
         ofValues("palette"),

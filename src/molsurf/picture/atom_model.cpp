@@ -174,8 +174,9 @@ std::vector<Bond> bondsOf(const ShownAtoms& shown)
         index.forEachNear(x, x, reach, [&](const Ball& other, std::int32_t at) {
             const auto j = std::size_t(at);
             if (j <= i || (element[i] == 1 && element[j] == 1)) return;
-            const double far = covalentRadius(element[i]) + covalentRadius(element[j]) + tolerance;
             const double d2 = (other.center - x).lengthSqr();
+            if (d2 > reach * reach) return; // the index gives some that lie farther
+            const double far = covalentRadius(element[i]) + covalentRadius(element[j]) + tolerance;
             const bool near = d2 > least * least && d2 < far * far;
             const BondOrder order =
                 known.between(i, j).value_or(near ? BondOrder::Single : BondOrder::None);

@@ -4,13 +4,16 @@
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/guess_element.h"
+#include "molsurf/structure/residue_bonds.h"
 #include "molsurf/structure/residue_names.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <memory>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,6 +23,69 @@ namespace
 {
 
 using std::string_view;
+
+/// The order that a file writes so, of a bond that is no other one.
+BondOrder orderOf(string_view type)
+{
+    if (type == "2") return BondOrder::Double;
+    if (type == "3") return BondOrder::Triple;
+    return type == "4" || type == "ar" ? BondOrder::Aromatic : BondOrder::Single;
+}
+
+/// The bonds of a file of molecules: those of all if they are the same, as of conformers, and if
+/// the names of atoms differ; else none.
+class MoleculeBonds
+{
+public:
+    void startMolecule()
+    {
+        endMolecule();
+        ends_.clear();
+        names_.clear();
+        own_.clear();
+    }
+
+    /// @param[in] id  of the atom in its molecule
+    void add(const std::string& id, const FileBonds::End& end)
+    {
+        if (usable_) usable_ = names_.insert(end).second && ends_.emplace(id, end).second;
+    }
+
+    void join(string_view a, string_view b, BondOrder order)
+    {
+        if (!usable_) return;
+        const auto first = ends_.find(std::string(a)), second = ends_.find(std::string(b));
+        if (first == ends_.end() || second == ends_.end()) return;
+        own_.emplace_back(first->second, second->second, order);
+    }
+
+    /// Null: there are none.
+    std::shared_ptr<const FileBonds> finish()
+    {
+        endMolecule();
+        if (!usable_ || all_.empty()) return nullptr;
+        auto out = std::make_shared<FileBonds>();
+        for (const auto& [a, b, order] : all_) out->links.push_back({a, b, order});
+        return out;
+    }
+
+private:
+    void endMolecule()
+    {
+        if (ends_.empty()) return;
+        if (count_++ == 0)
+            all_ = own_;
+        else
+            usable_ = usable_ && !(all_ < own_) && !(own_ < all_);
+    }
+
+    using Link = std::tuple<FileBonds::End, FileBonds::End, BondOrder>;
+    std::map<std::string, FileBonds::End> ends_; ///< of the molecule, by id
+    std::set<FileBonds::End> names_;
+    std::vector<Link> own_, all_; ///< of the molecule, and of the first one
+    std::size_t count_ = 0;
+    bool usable_ = true;
+};
 
 /// Reads the molecules of an .sdf file, one after the other.
 class SdfReader
@@ -37,6 +103,7 @@ public:
             }
         }
         Structure out = tree_.finish();
+        out.bonds = bonds_.finish();
         const auto isDrawn = [](const Model& m) { return !m.problem.empty(); };
         if (!out.models.empty() && std::all_of(out.models.begin(), out.models.end(), isDrawn))
             failAt(path_, out.models[0].problem);
@@ -70,24 +137,26 @@ private:
     void readMolecule()
     {
         serials_.clear();
+        bonds_.startMolecule();
         atoms_ = 0;
         next("the line of the program");
         drawn_ = lines_.line().size() >= 22 && lines_.line().substr(20, 2) == "2D";
         next("the comment");
         next("the numbers of atoms and bonds");
-        const string_view counts = lines_.line();
+        const std::string counts(lines_.line());
         const std::size_t line = lines_.number();
         flat_ = true;
-        if (counts.find("V3000") != string_view::npos) {
+        if (counts.find("V3000") != std::string::npos) {
             readV3000();
         } else {
             int atoms = 0;
-            if (!parseInteger(trimmed(counts.substr(0, 3)), atoms) || atoms < 0)
+            if (!parseInteger(trimmed(string_view(counts).substr(0, 3)), atoms) || atoms < 0)
                 fail("the number of atoms in columns 1-3");
             for (int i = 0; i < atoms; ++i) {
                 next("an atom");
                 readV2000Atom();
             }
+            readV2000Bonds(counts);
         }
         if (drawn_ && flat_ && atoms_ > 1)
             tree_.spoil("line " + std::to_string(line) +
@@ -109,7 +178,24 @@ private:
             position[int(axis)] = value;
         }
         if (line.size() <= symbol) fail("the symbol of an element in columns 32-34");
-        add(trimmed(line.substr(symbol, 3)), position);
+        add(trimmed(line.substr(symbol, 3)), position, std::to_string(atoms_ + 1));
+    }
+
+    /// Reads the bonds up to the first line that is none.
+    /// @param[in] counts  the line of the numbers of atoms and bonds
+    void readV2000Bonds(const std::string& counts)
+    {
+        constexpr std::size_t width = 3; // of two atoms and the type
+        int bonds = 0;
+        if (counts.size() < 2 * width ||
+            !parseInteger(trimmed(string_view(counts).substr(width, width)), bonds))
+            return;
+        for (int i = 0; i < bonds && lines_.next(); ++i) {
+            const string_view line = lines_.line();
+            if (line.size() < 3 * width) return;
+            bonds_.join(trimmed(line.substr(0, width)), trimmed(line.substr(width, width)),
+                        orderOf(trimmed(line.substr(2 * width, width))));
+        }
     }
 
     /// A line of V3000 without "M  V30 ", with what follows it if it ends in "-".
@@ -141,11 +227,25 @@ private:
                     fail("number, symbol, x, y and z");
                 position[axis] = value;
             }
-            add(fields[1], position);
+            add(fields[1], position, std::string(fields[0]));
+        }
+        readV3000Bonds();
+    }
+
+    /// Reads the bonds up to the end of the molecule.
+    void readV3000Bonds()
+    {
+        constexpr std::size_t type = 3, first = 4, second = 5; // M V30 number type atom atom
+        bool inside = false;
+        while (lines_.next() && trimmed(lines_.line()) != "$$$$") {
+            const Fields fields = splitFields(lines_.line());
+            if (fields.size() > type && fields[type] == "BOND") inside = fields[2] == "BEGIN";
+            if (inside && fields.size() > second)
+                bonds_.join(fields[first], fields[second], orderOf(fields[type]));
         }
     }
 
-    void add(string_view symbol, const openvdb::Vec3d& position)
+    void add(string_view symbol, const openvdb::Vec3d& position, const std::string& id)
     {
         ++atoms_;
         flat_ = flat_ && position.z() == 0.0;
@@ -155,6 +255,7 @@ private:
         if (isParticleSymbol(symbol)) atom.role = AtomRole::Particle;
         const std::string name = std::string(symbol) + std::to_string(++serials_[atom.element]);
         atom.name = name;
+        bonds_.add(id, {"", atom.number, atom.insertionCode, name});
         tree_.add(atom);
     }
 
@@ -162,7 +263,8 @@ private:
     const std::string& path_;
     AtomTree tree_;
     std::map<int, int> serials_; ///< atoms of each element up to now
-    std::size_t atoms_ = 0;      ///< of the molecule up to now
+    MoleculeBonds bonds_;
+    std::size_t atoms_ = 0; ///< of the molecule up to now
     bool drawn_ = false, flat_ = true;
 };
 
@@ -246,12 +348,18 @@ public:
             if (line.empty() || line[0] == '#') continue;
             if (line[0] == '@') {
                 section = line;
-                if (section == "@<TRIPOS>MOLECULE") tree_.startModel(++model);
+                if (section == "@<TRIPOS>MOLECULE") {
+                    tree_.startModel(++model);
+                    bonds_.startMolecule();
+                }
+            } else if (section == "@<TRIPOS>BOND") {
+                join(splitFields(line));
             } else if (section == "@<TRIPOS>ATOM") {
                 add(lines, model);
             }
         }
         Structure out = tree_.finish();
+        out.bonds = bonds_.finish();
         if (charges_.size() == out.atoms.size()) out.charges = std::move(charges_);
         return out;
     }
@@ -288,6 +396,13 @@ private:
         }
     }
 
+    /// Of a line of a bond: id, two atoms and the type; "nc": they are not connected.
+    void join(const Fields& fields)
+    {
+        if (fields.size() > 3 && fields[3] != "nc")
+            bonds_.join(fields[1], fields[2], orderOf(fields[3]));
+    }
+
     void add(const LineReader& lines, int model)
     {
         const Fields fields = splitFields(lines.line());
@@ -320,6 +435,8 @@ private:
         atom.insertionCode = residue.insertionCode;
         atom.hetatm = !isStandardResidue(residue.name);
         findElement(fields[Type], foreign_.count(model) > 0, atom);
+        bonds_.add(std::string(fields[Id]), {std::string(atom.chain), atom.number,
+                                             atom.insertionCode, std::string(atom.name)});
         tree_.add(atom);
     }
 
@@ -347,6 +464,7 @@ private:
     std::map<std::pair<int, std::string>, SubstructureLine> substructures_; ///< by model and number
     std::set<int> foreign_; ///< models whose types are not SYBYL's
     std::vector<float> charges_;
+    MoleculeBonds bonds_;
 };
 
 } // namespace

@@ -44,8 +44,26 @@ std::int32_t pocketBefore(const openvdb::Int32Grid& ids, const openvdb::Vec3d& x
     return 0;
 }
 
-/// Labels and colours the vertices by their pockets, each of which has a colour of its own.
-void colorPockets(const Pockets& pockets, const Progress& progress, Mesh& mesh)
+/// Colours of pockets, none of which looks like what is no pocket's.
+std::vector<Color> pocketColors()
+{
+    // Between red, green and blue; three greys of the palette have up to 32, its others 40 and
+    // more.
+    constexpr int least = 36;
+    std::vector<Color> colors =
+        distinctColors(std::vector<std::vector<std::int32_t>>(mostDistinct));
+    const auto isGrey = [](const Color& color) {
+        const auto [low, high] = std::minmax_element(color.begin(), color.end());
+        return *high - *low < least;
+    };
+    colors.erase(std::remove_if(colors.begin(), colors.end(), isGrey), colors.end());
+    return colors;
+}
+
+/// Labels and colours the vertices by their pockets. The largest have colours of their own, and the
+/// others those again.
+/// @return how many pockets no vertex is a wall of
+std::size_t colorPockets(const Pockets& pockets, const Progress& progress, Mesh& mesh)
 {
     Attribute<std::int32_t> label{"pocket", std::vector<std::int32_t>(mesh.positions.size()), {}};
     constexpr std::size_t chunk = 4096;
@@ -54,24 +72,28 @@ void colorPockets(const Pockets& pockets, const Progress& progress, Mesh& mesh)
             label.values[v] = pocketBefore(*pockets.ids, openvdb::Vec3d(mesh.positions[v]),
                                            openvdb::Vec3d(mesh.normals[v]));
     });
-    std::vector<std::vector<std::int32_t>> neighbours;
     label.names = {"elsewhere"};
-    for (const PocketReport& pocket : pockets.list) {
-        neighbours.emplace_back(pocket.neighbours.begin(), pocket.neighbours.end());
-        label.names.push_back(formatted("%zu: %.0f Å³", neighbours.size(), pocket.volume));
-    }
-    // The largest have colours of their own, and the others those again.
-    neighbours.resize(std::min(neighbours.size(), mostDistinct));
-    const auto most = std::int32_t(neighbours.size());
-    for (std::vector<std::int32_t>& near : neighbours)
-        near.erase(std::remove_if(near.begin(), near.end(), [=](auto n) { return n >= most; }),
-                   near.end());
-    const std::vector<Color> colors = distinctColors(neighbours);
+    for (const PocketReport& pocket : pockets.list)
+        label.names.push_back(formatted("%zu: %.0f Å³", label.names.size(), pocket.volume));
+    const std::vector<Color> colors = pocketColors();
     mesh.colors.assign(mesh.positions.size(), neutralColor);
-    for (std::size_t v = 0; v < mesh.colors.size(); ++v)
-        if (const std::int32_t id = label.values[v]; id > 0)
-            mesh.colors[v] = colors[std::size_t(id - 1) % colors.size()];
+    std::vector<char> seen(pockets.list.size() + 1, 0);
+    for (std::size_t v = 0; v < mesh.colors.size(); ++v) {
+        const std::int32_t id = label.values[v];
+        seen[std::size_t(id)] = 1;
+        if (id > 0) mesh.colors[v] = colors[std::size_t(id - 1) % colors.size()];
+    }
     mesh.labels.push_back(std::move(label));
+    return std::size_t(std::count(seen.begin() + 1, seen.end(), 0));
+}
+
+/// A line on pockets that the surface closes.
+std::string closedText(std::size_t closed, std::size_t all, SurfaceKind kind)
+{
+    const bool open = kind == SurfaceKind::SolventExcluded || kind == SurfaceKind::VanDerWaals;
+    return formatted("`color` pocket: %zu of %s no wall on this surface", closed,
+                     counted(all, "pocket has", "pockets have").c_str()) +
+           (open ? "" : " [hint: `surface` ses]");
 }
 
 } // namespace
@@ -94,7 +116,8 @@ void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& p
                       options.voxel, 0.5 * asked.probeIn));
     Pockets found = findPockets(atoms.balls, asked, options.voxel, atoms.pocketAt, progress);
     if (options.color == ColorBy::Pocket && !result.mesh.normals.empty())
-        colorPockets(found, progress, result.mesh);
+        if (const std::size_t closed = colorPockets(found, progress, result.mesh))
+            result.report.warnings.push_back(closedText(closed, found.list.size(), options.kind));
     result.report.pockets = PocketsReport{asked.probeIn, asked.probeOut, asked.cut,
                                           asked.neck,    options.voxel,  std::move(found.list)};
     const openvdb::GridPtrVec grids = {found.ids, found.depths};

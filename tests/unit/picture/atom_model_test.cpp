@@ -124,6 +124,25 @@ TEST(AtomModel, BondsOfTheFile)
     EXPECT_EQ(partsOf(atomModel({shown}, Progress()))[1], 2 * (bonds - 1)); // CA-CB is none there
 }
 
+// What a file joins is no longer than 3 Å either.
+TEST(AtomModel, NoBondIsLonger)
+{
+    ShownAtoms shown{atomsOf("/1/A/1/N,CA"), parseShow("sticks"), nullptr};
+    shown.atoms.names->residues[0].name = "XXX";
+    const auto bonds = std::make_shared<FileBonds>();
+    bonds->links.push_back({{"A", 1, ' ', "N"}, {"A", 1, ' ', "CA"}});
+    shown.bonds = bonds;
+    const auto sticksAt = [&](double distance, std::uint8_t element) {
+        shown.atoms.balls[1].center = shown.atoms.balls[0].center + Vec3d(0.0, distance, 0.0);
+        shown.atoms.labels->elementOf = {element, element};
+        return partsOf(atomModel({shown}, Progress()))[1];
+    };
+    for (const std::uint8_t element : {std::uint8_t(6), std::uint8_t(55)}) { // carbon and caesium
+        EXPECT_EQ(sticksAt(2.99, element), 2);
+        EXPECT_EQ(sticksAt(3.01, element), 0);
+    }
+}
+
 // Phenylalanine 13: a double bond C=O, six aromatic ones, four single ones.
 TEST(AtomModel, DrawsOrders)
 {
