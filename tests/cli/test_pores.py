@@ -72,7 +72,10 @@ class Pores(ToolTest):
     def test_what_is_wrong_is_said_in_a_line(self):
         for status, way, text in ((2, "0,0,0", "longer than 0"), (2, "q", "expected auto"), (2, "1,2,3 ->", "both sides of ->"),
                                   (2, "0.5,-9,3 -> 0.5,-9,3", "1 Å apart"), (1, "0,0,0 -> 0,12,3", "inside of atom_id"),
-                                  (2, "resid 999 -> 0,12,3", "resid 999"), (1, "40,-12,3 -> 40,12,3", "leaves it at"),
+                                  (2, "resid 999 -> 0,12,3", "resid 999"), (1, "22,-12,3 -> 22,12,3", "leaves it at"),
+                                  (1, "100,100,100 -> 105,100,100", "expected ends within 20 Å of the molecule"),
+                                  (1, "0,500,3 -> 0,-500,3", "expected ends within 20 Å of the molecule"),
+                                  (1, "16,20,20 -> 21,20,20", "atoms enclose no place of it"),
                                   (1, "x", "found none")):
             self.check(status, GRAMICIDIN, "--pore", way, "-o", "bad.pore.csv", says=["--pore", text])
             self.assertFalse((self.folder / "bad.pore.csv").exists())
