@@ -407,6 +407,7 @@ CASES = {
         ("--for apbs -o run/", "vdb_molsurf ion.pqr -o a.apbs.in", "vdb_molsurf ion.pqr --for apbs -o run/ --force"),
         ("--surface ses, or --match ses", "vdb_molsurf ion.pqr --for apbs --surface vdw -o far/",
          "vdb_molsurf ion.pqr --for apbs --surface ses --force -o far/ && vdb_molsurf ion.pqr --for apbs --match ses --force -o far/"),
+        ("-o FILE.pore.csv", "vdb_molsurf 1grm.pdb.gz -o .pore.csv", "vdb_molsurf 1grm.pdb.gz -o a.pore.csv"),
         ("-o FILE.residues.csv, or -o FILE.json --areas residues", "vdb_molsurf 1crn.pdb -o a.residues.json",
          "vdb_molsurf 1crn.pdb -o a.residues.csv", "vdb_molsurf 1crn.pdb -o a.json --areas residues"),
         ("-o FILE, for example -o surface.vdb", f"vdb_molsurf one.xyzr {FAST}",

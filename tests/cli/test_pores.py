@@ -76,9 +76,12 @@ class Pores(ToolTest):
                                   (1, "100,100,100 -> 105,100,100", "expected ends within 20 Å of the molecule"),
                                   (1, "0,500,3 -> 0,-500,3", "expected ends within 20 Å of the molecule"),
                                   (1, "16,20,20 -> 21,20,20", "atoms enclose no place of it"),
+                                  (2, "0,0,0 -> 1e9,0,0", "expected X,Y,Z"), (2, "nan,0,0 -> 0,12,3", "expected X,Y,Z"),
+                                  (2, "0 0 -12 -> 0 0 12", "expected X,Y,Z"), (2, "1,2 -> 0,12,3", "or a selection, got"),
                                   (1, "x", "found none")):
             self.check(status, GRAMICIDIN, "--pore", way, "-o", "bad.pore.csv", says=["--pore", text])
             self.assertFalse((self.folder / "bad.pore.csv").exists())
+        self.check(2, GRAMICIDIN, "-o", ".pore.csv", says=["expected a name in front of .pore.csv"])
 
 
 if __name__ == "__main__":
