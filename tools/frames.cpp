@@ -296,6 +296,8 @@ public:
             for (const std::string& line : leftOutOf(calls_.back())) say(line);
             say(counted(size(), "frame", "frames") + formatted(", %.2f s", secondsSince(start)));
         }
+        if (!closed_.empty())
+            say("no pore in frames " + joinWords(closed_, ", ") + " [" + whyClosed_ + "]");
         if (creeping_ == 0) return 0;
         say("not converged: " + counted(creeping_, "frame", "frames") +
             "; the files are written [hint: a larger --tolerance or a smaller --voxel]");
@@ -347,6 +349,23 @@ private:
         if (!range_ && call_.writes(Views)) range_ = rangeOf(call_, balls, result.mesh, terminal_);
     }
 
+    /// Drops the pore of a frame that has none, with the files of it alone.
+    bool goesOnWithout(const Error& error, std::size_t i, BallSet& balls)
+    {
+        const std::string text = error.what();
+        if (!balls.pore || error.kind() != ErrorKind::Input || text.rfind("`pore`: ", 0) != 0)
+            return false;
+        balls.pore.reset();
+        if (closed_.empty()) whyClosed_ = text.substr(0, text.find(" [")); // without its hint
+        closed_.push_back(std::to_string(source_.number(i)));
+        if (closed_.size() == size()) throw error; // none has one
+        std::vector<Output>& outputs = calls_[i].outputs;
+        outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
+                                     [](const Output& o) { return o.format->table == "pore"; }),
+                      outputs.end());
+        return true;
+    }
+
     void make(std::size_t i)
     {
         const Clock::time_point start = Clock::now();
@@ -377,9 +396,11 @@ private:
             keepOneRange(balls, result);
             if (moves_) addVelocities(call_, balls, displacement, terminal_, result);
             if (share_.isAsked()) share_.add(result);
-            for (auto& [output, file] : areas_)
-                appendCsv(areaTable(output.format->table, call_, balls, result), source_.number(i),
-                          i == 0, *file);
+            for (auto& [output, file] : areas_) {
+                Table rows = areaTable(output.format->table, call_, balls, result);
+                if (output.format->table == "pore") rows.note.clear(); // it is of one frame
+                appendCsv(rows, source_.number(i), i == 0, *file);
+            }
         };
         FrameRow row;
         table.add = [&](const Report& report, OutputFiles& files) {
@@ -388,7 +409,13 @@ private:
             files.push_back(std::make_unique<OutputFile>(tableName_, true));
             writeFrameTable(table_, *files.back());
         };
-        const Report report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
+        Report report;
+        try {
+            report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
+        } catch (const Error& error) {
+            if (!goesOnWithout(error, i, balls)) throw;
+            report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
+        }
         lastReport_ = report;
         creeping_ += !row.rests;
         if (euler_ && *euler_ != row.euler)
@@ -417,8 +444,10 @@ private:
     std::vector<Call> calls_;
     std::vector<bool> done_;
     std::size_t creeping_ = 0;
-    std::optional<int> euler_; // of the frame before
-    std::string changes_;      // of the topology: frames
+    std::vector<std::string> closed_; // frames without a pore
+    std::string whyClosed_;           // the first of them
+    std::optional<int> euler_;        // of the frame before
+    std::string changes_;             // of the topology: frames
 };
 
 } // namespace

@@ -128,7 +128,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     if (name == "contacts") table = contactTable(atoms, call.contacts, result);
     if (name == "interfaces") table = interfaceTable(atoms, result.report);
     if (name == "pockets") return result.report.pockets->table(atoms);
-    if (name == "pore") return result.report.pore->table(atoms);
+    if (name == "pore") return result.report.pore.value_or(Report::Pore()).table(atoms);
     if (name == "forces") table = forceTable(atoms, shown, result.mesh);
     addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
     return table;

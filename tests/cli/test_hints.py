@@ -357,7 +357,7 @@ CASES = {
     "pockets/find_pore.cpp": [
         ("its ends, as --pore 'X,Y,Z -> X,Y,Z'", "vdb_molsurf 1grm.pdb.gz --pore x -o a.pore.csv",
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv"),
-        ("ends where atoms are on all sides", "vdb_molsurf 1grm.pdb.gz --pore '40,-12,3 -> 40,12,3' -o a.pore.csv",
+        ("ends where atoms are on all sides", "vdb_molsurf 1grm.pdb.gz --pore '22,-12,3 -> 22,12,3' -o a.pore.csv",
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv")],
     "surface/pockets.cpp": [
         ("--voxel 0.7", "vdb_molsurf 1crn.pdb --voxel 1 -o a.pockets.csv", "vdb_molsurf 1crn.pdb --voxel 0.7 -o b.pockets.csv"),
@@ -409,6 +409,7 @@ CASES = {
         ("--for apbs -o run/", "vdb_molsurf ion.pqr -o a.apbs.in", "vdb_molsurf ion.pqr --for apbs -o run/ --force"),
         ("--surface ses, or --match ses", "vdb_molsurf ion.pqr --for apbs --surface vdw -o far/",
          "vdb_molsurf ion.pqr --for apbs --surface ses --force -o far/ && vdb_molsurf ion.pqr --for apbs --match ses --force -o far/"),
+        ("-o FILE.pore.csv", "vdb_molsurf 1grm.pdb.gz -o .pore.csv", "vdb_molsurf 1grm.pdb.gz -o a.pore.csv"),
         ("-o FILE.residues.csv, or -o FILE.json --areas residues", "vdb_molsurf 1crn.pdb -o a.residues.json",
          "vdb_molsurf 1crn.pdb -o a.residues.csv", "vdb_molsurf 1crn.pdb -o a.json --areas residues"),
         ("-o FILE, for example -o surface.vdb", f"vdb_molsurf one.xyzr {FAST}",

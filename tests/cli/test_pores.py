@@ -67,15 +67,42 @@ class Pores(ToolTest):
         self.assertIn("conductance 0 pS", self.table("closed.pore.csv")[0])
         self.check(0, DATA / "1d3z.pdb.gz", "--frames", "1-2", "--pore", "resid 30 -> resid 50", "-o", "f.pore.csv")
         lines = (self.folder / "f.pore.csv").read_text().splitlines()
-        self.assertEqual({line.split(",")[0] for line in lines if not line.startswith("#")}, {"frame", "1", "2"})
+        self.assertEqual({line.split(",")[0] for line in lines}, {"frame", "1", "2"})
+
+    def test_frames_without_a_pore_have_no_rows(self):
+        rings = [(4.3 * math.cos(k * math.pi / 6), 4.3 * math.sin(k * math.pi / 6), z) for z in range(-6, 7, 2) for k in range(12)]
+        line = "HETATM%5d  C   LIG A   1    %8.3f%8.3f%8.3f  1.00  0.00           C\n"
+        flat = [(x, y, 0.1 * z + 20) for x, y, z in rings]
+        for first, name in (([rings, flat, rings], "2"), ([flat, rings], "1"), ([flat, flat], "")):
+            (self.folder / "t.pdb").write_text("".join(
+                f"MODEL {m:8}\n" + "".join(line % (i + 1, *at) for i, at in enumerate(frame)) + "ENDMDL\n" for m, frame in enumerate(first, 1)))
+            args = ("t.pdb", "--frames", "all", "--surface", "sas", "--pore", "0,0,-7 -> 0,0,7", "-o", "t.pore.csv", "-o", "t.csv", "-o", "t.json",
+                    "--force")
+            if not name:
+                (self.folder / "t.pore.csv").unlink()
+                self.check(1, *args, says=["--pore: expected ends"])
+                self.assertFalse((self.folder / "t.pore.csv").exists())
+                continue
+            self.check(0, *args, says=[f"no pore in frames {name} [--pore: expected ends"])
+            title, *lines = (self.folder / "t.pore.csv").read_text().splitlines()
+            self.assertTrue(title.startswith("frame,distance_A,"), title)
+            self.assertEqual({int(line.split(",")[0]) for line in lines}, set(range(1, len(first) + 1)) - {int(name)})
+            self.assertEqual(len((self.folder / "t.csv").read_text().splitlines()), len(first) + 1)
+            self.assertIsNone(json.loads((self.folder / f"t.000{name}.json").read_text())["pore"])
 
     def test_what_is_wrong_is_said_in_a_line(self):
         for status, way, text in ((2, "0,0,0", "longer than 0"), (2, "q", "expected auto"), (2, "1,2,3 ->", "both sides of ->"),
                                   (2, "0.5,-9,3 -> 0.5,-9,3", "1 Å apart"), (1, "0,0,0 -> 0,12,3", "inside of atom_id"),
-                                  (2, "resid 999 -> 0,12,3", "resid 999"), (1, "40,-12,3 -> 40,12,3", "leaves it at"),
+                                  (2, "resid 999 -> 0,12,3", "resid 999"), (1, "22,-12,3 -> 22,12,3", "leaves it at"),
+                                  (1, "100,100,100 -> 105,100,100", "expected ends within 20 Å of the molecule"),
+                                  (1, "0,500,3 -> 0,-500,3", "expected ends within 20 Å of the molecule"),
+                                  (1, "16,20,20 -> 21,20,20", "atoms enclose no place of it"),
+                                  (2, "0,0,0 -> 1e9,0,0", "expected X,Y,Z"), (2, "nan,0,0 -> 0,12,3", "expected X,Y,Z"),
+                                  (2, "0 0 -12 -> 0 0 12", "expected X,Y,Z"), (2, "1,2 -> 0,12,3", "or a selection, got"),
                                   (1, "x", "found none")):
             self.check(status, GRAMICIDIN, "--pore", way, "-o", "bad.pore.csv", says=["--pore", text])
             self.assertFalse((self.folder / "bad.pore.csv").exists())
+        self.check(2, GRAMICIDIN, "-o", ".pore.csv", says=["expected a name in front of .pore.csv"])
 
 
 if __name__ == "__main__":

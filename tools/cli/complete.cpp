@@ -58,9 +58,14 @@ void checkTable(const std::string& path, const std::string& word)
     const std::string stem = path.substr(0, path.size() - std::min(word.size() + 1, path.size()));
     const std::string table = lowered(stem.substr(stem.rfind('.') + 1));
     if (word.find('.') == std::string::npos && table.size() < stem.size() &&
-        std::count(areaTables().begin(), areaTables().end(), table) > 0)
+        std::count(areaTables().begin(), areaTables().end(), table) > 0) {
+        const std::string both = table + "." + word;
+        if (findFormat(both))
+            misuse("-o " + path + ": expected a name in front of ." + both + " [hint: -o FILE." +
+                   both + "]");
         misuse("-o " + path + ": there are no " + table + " as ." + word + " [hint: -o FILE." +
                table + ".csv, or -o FILE.json --areas " + table + "]");
+    }
 }
 
 bool isFolder(const std::string& path)

@@ -6,7 +6,10 @@
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <sstream>
 
 namespace molsurf
 {
@@ -44,6 +47,21 @@ std::optional<openvdb::Vec3d> numbersIn(const std::string& text)
         if (!parseWhole(withoutSpace(words[std::size_t(i)]), out[i]) || !(std::abs(out[i]) <= 1e6))
             return {};
     return out;
+}
+
+/// Whether it is of numbers alone, with commas or spaces between, though not of three.
+bool isOfNumbers(const std::string& text)
+{
+    std::string spaced = text;
+    std::replace(spaced.begin(), spaced.end(), ',', ' ');
+    std::istringstream words(spaced);
+    bool some = false;
+    for (std::string word; words >> word; some = true) {
+        char* end = nullptr;
+        std::strtod(word.c_str(), &end); // also what is no number, or has no end
+        if (*end != '\0') return false;
+    }
+    return some;
 }
 
 /// The axis that a text without an arrow says; 0: it is to be found.
@@ -100,6 +118,11 @@ void checkPore(const std::string& pore)
         throw Error(ErrorKind::Usage,
                     "`pore`: expected a point as 1,2,3 or a selection on both sides of ->, got " +
                         inQuotes(pore));
+    for (const std::string& side : sides)
+        if (!numbersIn(side) && isOfNumbers(side))
+            throw Error(ErrorKind::Usage,
+                        "`pore`: expected X,Y,Z, numbers within 1e6 Å, or a selection, got " +
+                            inQuotes(side));
 }
 
 std::vector<std::string> poreSelections(const std::string& pore)

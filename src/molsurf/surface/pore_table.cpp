@@ -57,9 +57,10 @@ Table Report::Pore::table(const BallSet& atoms) const
         ids.push_back(std::move(places));
     }
     Table table{"pore", {}};
-    table.note = formatted("pore: narrowest %.4f A, length %.2f A, conductance %.4g pS at "
-                           "%g ohm m",
-                           narrowest(), length(), conductance(), bulkResistivity);
+    if (!stations.empty())
+        table.note = formatted("pore: narrowest %.4f A, length %.2f A, conductance %.4g pS at "
+                               "%g ohm m",
+                               narrowest(), length(), conductance(), bulkResistivity);
     for (std::size_t k = 0; k < names.size(); ++k)
         table.columns.push_back({names[k], std::move(numbers[k])});
     table.columns.push_back({"bottleneck", std::move(necks)});

@@ -221,6 +221,13 @@ TEST(FindPore, RefusesWhatHasNoWay)
     expectError(balls,
                 {{{tube.at(25.0, 0.0, -9.0), true}, {tube.at(25.0, 0.0, 9.0), true}}, Vec3d(0.0)},
                 ErrorKind::Input, "leaves it");
+    expectError(balls,
+                {{{tube.at(0.0, 0.0, -9.0), true}, {tube.at(0.0, 0.0, 90.0), true}}, Vec3d(0.0)},
+                ErrorKind::Input, "expected ends within");
+    // One ball encloses nothing.
+    expectError({{Vec3d(0.0), 1.7, 0}},
+                {{{Vec3d(2.0, 0.0, 0.0), true}, {Vec3d(6.0, 0.0, 0.0), true}}, Vec3d(0.0)},
+                ErrorKind::Input, "enclose no place");
     const Vec3d across = Plane(Vec3d(0.0), tube.axis).along[0];
     expectError(balls, {{}, across}, ErrorKind::Input, "found none");
     expectError({balls[0]}, {}, ErrorKind::Input, "found none");
