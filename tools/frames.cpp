@@ -36,6 +36,12 @@ namespace molsurf::tool
 namespace
 {
 
+/// Whether a file is of a pore.
+bool ofPore(const Output& output)
+{
+    return std::string(output.format->table) == "pore";
+}
+
 // The call of one frame: "name.vdb" becomes "name.0001.vdb".
 Call callOf(const Call& call, std::size_t file, int frame)
 {
@@ -360,9 +366,7 @@ private:
         closed_.push_back(std::to_string(source_.number(i)));
         if (closed_.size() == size()) throw error; // none has one
         std::vector<Output>& outputs = calls_[i].outputs;
-        outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
-                                     [](const Output& o) { return o.format->table == "pore"; }),
-                      outputs.end());
+        outputs.erase(std::remove_if(outputs.begin(), outputs.end(), ofPore), outputs.end());
         return true;
     }
 
@@ -398,7 +402,7 @@ private:
             if (share_.isAsked()) share_.add(result);
             for (auto& [output, file] : areas_) {
                 Table rows = areaTable(output.format->table, call_, balls, result);
-                if (output.format->table == "pore") rows.note.clear(); // it is of one frame
+                if (ofPore(output)) rows.note.clear(); // it is of one frame
                 appendCsv(rows, source_.number(i), i == 0, *file);
             }
         };
