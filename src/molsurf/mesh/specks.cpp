@@ -104,28 +104,29 @@ void fill(const Mesh& mesh, const Piece& piece, openvdb::FloatGrid& surface)
 
 } // namespace
 
-void removePieces(const MeshPieces& pieces, const std::vector<char>& gone, Mesh& mesh)
+std::vector<std::uint32_t> removePieces(const MeshPieces& pieces, const std::vector<char>& gone,
+                                        Mesh& mesh)
 {
     std::vector<std::uint32_t> kept, numbers(mesh.positions.size());
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
         numbers[v] = std::uint32_t(kept.size());
         if (!gone[pieces.of[v]]) kept.push_back(v);
     }
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::size_t next = 0; // part
+    std::size_t count = 0, next = 0; // triangles that stay, part
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (; next < mesh.parts.size() && mesh.parts[next].firstTriangle == t; ++next)
-            mesh.parts[next].firstTriangle = triangles.size();
-        const auto& [a, b, c] = mesh.triangles[t];
-        if (!gone[pieces.of[a]]) triangles.push_back({numbers[a], numbers[b], numbers[c]});
+            mesh.parts[next].firstTriangle = count;
+        const auto [a, b, c] = mesh.triangles[t];
+        if (!gone[pieces.of[a]]) mesh.triangles[count++] = {numbers[a], numbers[b], numbers[c]};
     }
-    for (; next < mesh.parts.size(); ++next) mesh.parts[next].firstTriangle = triangles.size();
-    mesh.triangles = std::move(triangles);
+    for (; next < mesh.parts.size(); ++next) mesh.parts[next].firstTriangle = count;
+    mesh.triangles.resize(count);
     keepVertices(kept, mesh.positions);
     keepVertices(kept, mesh.normals);
     keepVertices(kept, mesh.colors);
     for (auto& a : mesh.scalars) keepVertices(kept, a.values);
     for (auto& a : mesh.labels) keepVertices(kept, a.values);
+    return kept;
 }
 
 std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
@@ -151,14 +152,8 @@ std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
     if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
 
     std::vector<Piece> specks(count);
-    std::vector<std::uint32_t> kept, numbers(mesh.positions.size());
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        numbers[v] = std::uint32_t(kept.size());
-        if (small[pieces.of[v]])
-            specks[pieces.of[v]].vertices.push_back(v);
-        else
-            kept.push_back(v);
-    }
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        if (small[pieces.of[v]]) specks[pieces.of[v]].vertices.push_back(v);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t p = pieces.of[mesh.triangles[t][0]];
         if (small[p]) specks[p].triangles.push_back(t);
@@ -166,15 +161,7 @@ std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
     for (std::size_t p = 0; p < count; ++p)
         if (small[p]) fill(mesh, specks[p], surface);
 
-    const auto gone = [&](const auto& t) { return small[pieces.of[t[0]]] != 0; };
-    mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), gone),
-                         mesh.triangles.end());
-    for (auto& t : mesh.triangles)
-        for (std::uint32_t& v : t) v = numbers[v];
-    keepVertices(kept, mesh.positions);
-    keepVertices(kept, mesh.normals);
-    for (auto& a : mesh.scalars) keepVertices(kept, a.values);
-
+    std::vector<std::uint32_t> kept = removePieces(pieces, small, mesh);
     std::vector<std::uint32_t> places(count);
     std::vector<PieceMeasure> measures;
     for (std::size_t p = 0; p < count; ++p) {

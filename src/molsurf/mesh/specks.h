@@ -32,7 +32,9 @@ std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
 /// Removes closed pieces from a mesh, with what its attributes, colours and parts say of them.
 /// @param[in]     pieces  those of the mesh
 /// @param[in]     gone    whether a piece goes
-void removePieces(const MeshPieces& pieces, const std::vector<char>& gone, Mesh& mesh);
+/// @return the vertices that stay, as indices of before, ascending
+std::vector<std::uint32_t> removePieces(const MeshPieces& pieces, const std::vector<char>& gone,
+                                        Mesh& mesh);
 
 /// Makes an array over vertices one of those that stay.
 template<typename T>
