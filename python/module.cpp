@@ -464,15 +464,18 @@ nb::tuple comparisonOf(const Mesh& a, const Mesh& b, const How& how)
                           dictOf(std::move(both.bToA)));
 }
 
-void save(const MadeSurface& surface, const std::string& path, bool replace, int width,
-          const std::string& scene)
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+void save(const MadeSurface& surface, const std::string& path, bool replace,
+          const std::string& scene, const Words& settings)
 {
     nb::gil_scoped_release free;
     const std::string end = std::filesystem::path(path).extension().string();
     if (end == ".vdb") return writeVdb(surface.result, path, replace, scene);
     if (end == ".json") return writeReport(surface.result.report, path, replace);
     if (end == ".png" || end == ".html")
-        return writePicture(*surface.atoms, surface.result, surface.options, path, width, replace);
+        return writePicture(*surface.atoms, surface.result, surface.options, path, settings,
+                            replace);
     std::string all;
     bool known = false;
     for (const std::string& one : meshEndings()) {

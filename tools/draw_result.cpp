@@ -56,38 +56,6 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
     return out;
 }
 
-namespace
-{
-
-/// The colours of points inside.
-std::function<Color(const openvdb::Vec3d&)>
-insideOf(const Call& call, const BallSet& atoms, const std::shared_ptr<const ColorOwners>& borders)
-{
-    constexpr double farthest = 30.0; // from a ball [Å]
-    if (borders)
-        return [borders](const openvdb::Vec3d& x) {
-            std::vector<OwnersPower> near;
-            borders->owners.at(x, 0.0, near);
-            return near.empty() ? neutralColor : borders->colors[std::size_t(near[0].owner)];
-        };
-    if (call.options.color == ColorBy::Nothing) return nullptr;
-    if (call.options.color != ColorBy::Value || atoms.balls.empty())
-        return [](const openvdb::Vec3d&) { return neutralColor; };
-    const auto values =
-        std::make_shared<PointValues>(atoms, outwardOf(atoms.coloring, call.options));
-    return [values, origin = originOf(call)](const openvdb::Vec3d& x) {
-        return values->colorOf(values->at(x + origin, openvdb::Vec3d(0.0), farthest));
-    };
-}
-
-} // namespace
-
-void setUpright(const BallSet& atoms, DrawOptions& picture)
-{
-    const bool chosen = picture.upright.lengthSqr() > 0.0 || picture.toEye.lengthSqr() > 0.0;
-    if (atoms.membrane && !chosen) picture.upright = *atoms.membrane;
-}
-
 DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
                       const Progress& progress)
 {
@@ -213,7 +181,8 @@ Shot shotOf(const Drawn& d, double turn, bool quick)
     options.turn += turn;
     options.quick = quick;
     options.borders = d.borders;
-    if (options.clip) options.inside = insideOf(call, d.atoms, d.borders);
+    if (options.clip)
+        options.inside = insideColors(call.options, d.atoms, originOf(call), d.borders);
     const auto legend =
         d.legend ? d.legend : legendOf(call.options.color, d.atoms, d.mesh, d.progress);
     shot.legends = molsurf::legendsOf(legend, options.model.get());

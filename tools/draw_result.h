@@ -44,9 +44,6 @@ std::shared_ptr<const ColorOwners> bordersOf(const Call& call, const BallSet& at
 std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
                                       bool colored, const Progress& progress);
 
-/// Sets what is up of a membrane, where the call says nothing of it.
-void setUpright(const BallSet& atoms, DrawOptions& picture);
-
 /// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
 /// for every voxel.
 DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
@@ -64,7 +61,7 @@ void takeRange(const std::optional<std::array<double, 2>>& range, BallSet& atoms
 std::shared_ptr<const std::vector<PanelSurface>> makePanels(const Call& call, const BallSet& first,
                                                             const Mesh& mesh, Terminal& terminal);
 
-/// What a picture is of.
+/// Source of a picture.
 struct Drawn {
     const Call& call;
     const BallSet& atoms;

@@ -2,6 +2,7 @@
 """Command line, keywords and type hints have one set of names, defaults and ranges."""
 
 import ast
+import inspect
 import pathlib
 import re
 import runpy
@@ -13,8 +14,7 @@ from vdb_molsurf import _options
 
 # Options of `build` that set no member of the library's options: files, frames, pictures, the run.
 COMMAND_LINE = {"output", "format", "force", "weld", "frames", "first-frame", "fps", "fog-density", "trajectory", "update-selections", "lod", "groups", "crisp", "walls", "areas",
-                "contacts", "for", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale", "min-wall", "view", "up", "turn", "size", "background", "plain-color",
-                "depth-cue", "legend", "turntable", "scale-bar", "dpi", "style", "opacity", "all-walls", "clip", "show", "label", "ruler", "panel", "memory", "max-hours",
+                "contacts", "for", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale", "min-wall", "size", "turntable", "show", "label", "ruler", "panel", "memory", "max-hours",
                 "dry-run", "require", "skip-existing", "threads", "quiet", "verbose", "no-progress", "config", "help", "help-all", "version", "list-radii"}
 
 
@@ -25,9 +25,15 @@ def options_of_build():
     return {name: preset for name, _, preset, verbs in rows if re.search(r"\b(build|all)\b", verbs)}
 
 
+def of_pictures():
+    """Options that Surface.picture() has."""
+    parameters = inspect.signature(ms.Surface.picture).parameters
+    return {name.replace("_", "-") for name in parameters if name not in ("self", "path", "width", "replace")}
+
+
 def test_command_line_and_keywords_have_the_same_names_and_defaults():
     told = options_of_build()
-    assert set(told) == set(_options.SETTINGS) | COMMAND_LINE
+    assert set(told) == set(_options.SETTINGS) | COMMAND_LINE | of_pictures()
     for name, row in _options.SETTINGS.items():
         assert told[name] == row["preset"] or name == "steps", name
         words = " ".join(row["text"].split())

@@ -110,6 +110,15 @@ def _made(pairs, extra, areas_of):
     return pairs, [name for name in extra if not (parts and name == "atom_areas")], areas_of
 
 
+def _word(value):
+    """A value of an option as it is typed: a direction with commas, a number with all its digits."""
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if np.ndim(value) > 0:
+        return ",".join(repr(float(x)) for x in value)
+    return str(value)
+
+
 class Surface:
     """The surface of a molecule: what surface() and Molecule.surface() make.
 
@@ -299,12 +308,14 @@ class Surface:
 
     def save(self, path, *, replace=True):
         """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json, .png, or .html, a page."""
-        self._save(path, replace, 1200, "")
+        self._save(path, replace)
 
-    def _save(self, path, replace, width, scene):
+    def _save(self, path, replace, scene="", settings=()):
         """Writes a file; messages name the keywords of Python."""
         try:
-            self._core.save(os.fspath(path), bool(replace), width, scene)
+            self._core.save(os.fspath(path), bool(replace), scene, list(settings))
+        except _core.OptionError as error:
+            raise type(error)(str(error).replace("`size`", "width")) from None
         except _core.OutputError as error:
             raise type(error)(str(error).replace("`force` replaces it", "replace=True replaces it")) from None
 
@@ -316,7 +327,7 @@ class Surface:
         path = os.fspath(path)
         if not path.endswith(".vdb"):
             raise ValueError("to_vdb: expected a name that ends in .vdb")
-        self._save(path, replace, 1200, "" if scene is None else str(scene))
+        self._save(path, replace, scene="" if scene is None else str(scene))
 
     def view(self, height=480):
         """The page of save("name.html") as what a notebook shows: a surface to turn, with its colours and atoms."""
@@ -327,12 +338,21 @@ class Surface:
                 ("vertices", f"{len(self._core.vertices)}"), ("faces", f"{len(self._core.faces)}")]
         return "<table>" + "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows) + "</table>"
 
-    def picture(self, path, width=1200, *, replace=True):
-        """Draws the surface into a .png of so many pixels."""
+    def picture(self, path, width=1200, *, replace=True, view=None, up=None, turn=None, background=None, plain_color=None,
+                style=None, opacity=None, all_walls=False, clip=None, depth_cue=False, legend=None, scale_bar=False, dpi=None):
+        """Draws the surface into a .png of so many pixels.
+
+        The keywords are the command line's options of pictures. `view` and `up` are directions (x, y, z), toward the
+        eye and upward; `view` may be the path of a .view, too. `turn` is in degrees, `clip` in Å. None: the default.
+        """
         path = os.fspath(path)
         if not path.endswith(".png"):
             raise ValueError("picture: expected a name that ends in .png")
-        self._save(path, replace, int(width), "")
+        given = {"size": int(width), "view": view, "up": up, "turn": turn, "background": background, "plain-color": plain_color, "style": style,
+                 "opacity": opacity, "all-walls": all_walls, "clip": clip, "depth-cue": depth_cue, "legend": legend,
+                 "scale-bar": scale_bar, "dpi": dpi}
+        settings = [(name, _word(value)) for name, value in given.items() if value is not None and value is not False]
+        self._save(path, replace, settings=settings)
 
 
 class Page:

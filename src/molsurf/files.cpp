@@ -20,6 +20,7 @@
 #include "molsurf/selection/subset.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/text_fields.h"
+#include "molsurf/surface/picture_settings.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <filesystem>
@@ -116,14 +117,18 @@ void writePicture(const Mesh& mesh, const std::string& path, int width, bool rep
 }
 
 void writePicture(const BallSet& atoms, const MolecularSurface& surface,
-                  const SurfaceOptions& options, const std::string& path, int width, bool replace)
+                  const SurfaceOptions& options, const std::string& path,
+                  const std::vector<std::pair<std::string, std::string>>& settings, bool replace)
 {
     const Progress nobody;
     const Mesh& mesh = surface.mesh;
     checkArrays(mesh);
     const ColorBy color = options.color;
-    DrawOptions how = drawn(width);
-    how.upright = atoms.membrane.value_or(openvdb::Vec3d(0.0));
+    PictureSettings look;
+    for (const auto& [name, value] : settings) pictureSetting(name).set(look, {value});
+    DrawOptions& how = look.picture;
+    setUpright(atoms, how);
+    if (color == ColorBy::Pocket) how.glass = neutralColor;
     const WholeBalls whole = ballsOfWhole(atoms);
     for (const Ball& ball : whole.balls) how.about.push_back(ball.center);
     const std::filesystem::path name = path;
@@ -145,8 +150,11 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
         const bool repeats = !atoms.placement.isWhole();
         how.borders = bordersOf(color, repeats ? repeated(atoms, color, whole.sources) : atoms,
                                 asMeshed(whole.balls, options), mesh, nobody);
-        const auto legends = legendsOf(legendOf(color, atoms, mesh, nobody), nullptr);
-        writePng(drawExplained(mesh, std::move(how), legends, false, nobody), file);
+        if (how.clip) how.inside = insideColors(options, atoms, openvdb::Vec3d(0.0), how.borders);
+        const auto legends = look.drawsLegend()
+                                 ? legendsOf(legendOf(color, atoms, mesh, nobody), nullptr)
+                                 : std::vector<Legend>();
+        writePng(drawExplained(mesh, std::move(how), legends, look.scaleBar, nobody), file);
     }
     file.commit();
 }

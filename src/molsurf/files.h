@@ -10,6 +10,7 @@
 #include "molsurf/surface.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace molsurf
@@ -54,11 +55,15 @@ void writePicture(const Mesh& mesh, const std::string& path, int width = 1200, b
 
 /// Draws the surface of atoms with the legend of its colours, or, if the name ends in .html, writes
 /// a page that shows it in a browser and names its atoms.
-/// @param[in] options  that the surface was made with
-/// @param[in] width    as above
-/// @throws as above
+/// @param[in] options   that the surface was made with
+/// @param[in] settings  names and values of the picture's options on the command line, such as
+///                      {"size", "600"} or {"view", "1,0,0"}; the value of a switch does not matter
+/// @param[in] replace   as above
+/// @throws Error(ErrorKind::Usage) if a setting is wrong
+/// @throws Error(ErrorKind::Output) if the file cannot be written
 void writePicture(const BallSet& atoms, const MolecularSurface& surface,
-                  const SurfaceOptions& options, const std::string& path, int width = 1200,
+                  const SurfaceOptions& options, const std::string& path,
+                  const std::vector<std::pair<std::string, std::string>>& settings = {},
                   bool replace = true);
 
 /// Reads positions and triangles from a file in the format that the extension tells: .ply (text or

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the user asked for, as values.
+/// The user's request as values.
 
 #include "cli/note_rule.h"
 #include "require.h"
@@ -11,10 +11,10 @@
 #include "molsurf/io/scene.h"
 #include "molsurf/io/write_apbs.h"
 #include "molsurf/picture/atom_model.h"
-#include "molsurf/picture/draw_mesh.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/area_tables.h"
 #include "molsurf/surface/field_table.h"
+#include "molsurf/surface/picture_settings.h"
 
 #include <cstddef>
 #include <map>
@@ -40,7 +40,7 @@ namespace molsurf::tool
 // The formats of output files, a row each: the words of the command line, its help, what a verb
 // writes, what a file cannot show, and the writers come from it.
 
-/// What a file of a format holds or shows. Bits make sets.
+/// Contents of a file of a format. Bits make sets.
 enum Holds : unsigned {
     Grids = 1 << 0,             ///< the level set and its fields
     Triangles = 1 << 1,         ///< the mesh; of a whole by symmetry all of its triangles
@@ -68,7 +68,7 @@ enum Holds : unsigned {
     Moving = 1 << 23            ///< the pictures of a turntable or of frames in one film
 };
 
-/// What a file is written of, and how.
+/// Source of a file, and how it is written.
 struct Writing;
 
 /// A format.
@@ -86,7 +86,7 @@ struct Format {
 /// All of them, in the order of help texts.
 const std::vector<Format>& formatTable();
 
-/// What a verb's files are, for the help text of --output.
+/// The files of a verb, for the help text of --output.
 std::string filesOf(unsigned verb);
 
 /// The format of a word, or null.
@@ -129,17 +129,13 @@ struct Panel {
 /// given more than once.
 using GivenOptions = std::map<std::string, std::vector<std::string>>;
 
-/// When legends are drawn.
-enum class LegendChoice { Auto, On, Off };
-const char* nameOf(LegendChoice choice);
-
 /// Which closed pieces of the surface meshes and pictures have.
 enum class Walls { All, Outer, Cavities };
 const char* nameOf(Walls walls);
 
 /// A command line. The settings and the first part are set by options, see optionTable(), the
 /// second part is made of them.
-struct Call : Settings {
+struct Call : Settings, PictureSettings {
     Verb verb = Build;
     std::string command;             ///< the command line as typed, quoted for a shell
     std::vector<std::string> inputs; ///< the words that are no options
@@ -167,23 +163,20 @@ struct Call : Settings {
     std::vector<std::string> areas;     ///< tables of areas in the report: "atoms", "residues", ...
     ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts
     bool weld = false;                             ///< units of a whole share their vertices
-    bool center = false;     ///< the middle of the surface comes to the origin
-    double printScale = 0.0; ///< of .stl, .obj, .wrl and .3mf [mm/Å]; 0: they are in Å
-    double wall = 0.0;       ///< least thickness of a print [mm]; 0: none
-    DrawOptions picture;
+    bool center = false;         ///< the middle of the surface comes to the origin
+    double printScale = 0.0;     ///< of .stl, .obj, .wrl and .3mf [mm/Å]; 0: they are in Å
+    double wall = 0.0;           ///< least thickness of a print [mm]; 0: none
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none
     std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
     std::vector<NoteRule> notes; ///< labels and rulers of pictures
     std::vector<Panel> panels;   ///< of pictures, beside the first one
-    LegendChoice legend = LegendChoice::Auto;
-    bool scaleBar = false;    ///< a bar of lengths below pictures
-    int turntable = 0;        ///< number of pictures; 0: one
-    bool colorBySign = false; ///< Compare: by the signed distance
-    double colorRange = 0.0;  ///< Compare: distance at the end of the colours [Å]; 0: choose
-    int bricks = 0;           ///< BricksPlan: how many; 0: by `memory`
-    std::size_t memory = 0;   ///< bytes at most; 0: no limit
-    double hours = 24.0;      ///< that a surface may take, by the estimate
-    bool dryRun = false;      ///< only say what it takes
+    int turntable = 0;           ///< number of pictures; 0: one
+    bool colorBySign = false;    ///< Compare: by the signed distance
+    double colorRange = 0.0;     ///< Compare: distance at the end of the colours [Å]; 0: choose
+    int bricks = 0;              ///< BricksPlan: how many; 0: by `memory`
+    std::size_t memory = 0;      ///< bytes at most; 0: no limit
+    double hours = 24.0;         ///< that a surface may take, by the estimate
+    bool dryRun = false;         ///< only say what it takes
     Walls walls = Walls::All;
     std::vector<Requirement> required; ///< of the mesh, or nothing is written
     int threads = 0;                   ///< 0: as many as there are
@@ -210,7 +203,6 @@ struct Call : Settings {
 
     /// Whether there are files, and each holds one of these.
     bool writesOnly(unsigned some) const;
-    bool drawsLegend() const;
 
     /// Whether one of the surfaces is of such a kind, or the grid `sas` is.
     template<typename Such>

@@ -6,14 +6,12 @@
 
 #include "molsurf/bricks.h"
 #include "molsurf/error.h"
-#include "molsurf/picture/style.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/set_value.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -36,11 +34,6 @@ void misuse(const std::string& message)
 const char* nameOf(Walls walls)
 {
     return walls == Walls::Outer ? "outer" : walls == Walls::Cavities ? "cavities" : "all";
-}
-
-const char* nameOf(LegendChoice choice)
-{
-    return choice == LegendChoice::On ? "on" : choice == LegendChoice::Off ? "off" : "auto";
 }
 
 using molsurf::nameOf;
@@ -151,49 +144,13 @@ Option either(const char* name, std::string help, const char* on, const char* of
     return o;
 }
 
-/// A direction X,Y,Z.
-std::optional<openvdb::Vec3d> directionOf(const std::string& text)
-{
-    openvdb::Vec3d way;
-    const char *from = text.data(), *end = from + text.size();
-    for (int i = 0; i < 3; ++i) {
-        const auto [stop, problem] = std::from_chars(from, end, way[i]);
-        if (problem != std::errc() || (i < 2 ? stop == end || *stop != ',' : stop != end))
-            return std::nullopt;
-        from = stop + 1;
-    }
-    return way;
-}
-
 void setView(Call& call, const Values& values)
 {
     const std::string& view = values.back();
-    if (lowered(view) == "auto") return;
-    if (isViewName(view)) return readView(view, call.picture);
-    if (const auto way = directionOf(view)) {
-        const double length = way->length();
-        if (!(length > 0.0) || !std::isfinite(length))
-            wrongValue("view", "a direction X,Y,Z that is not 0", view);
-        return lookFrom(*way, call.picture);
-    }
+    if (takeView(view, call.picture)) return;
     if (!(call.verb & (Build | Batch)))
         wrongValue("view", "auto, a direction X,Y,Z or a FILE.view", view);
     call.viewed = view;
-}
-
-void setUpright(Call& call, const Values& values)
-{
-    const auto way = directionOf(values.back());
-    if (!way || !(way->length() > 0.0) || !std::isfinite(way->length()))
-        wrongValue("up", "a direction X,Y,Z that is not 0", values.back());
-    call.picture.upright = *way;
-}
-
-void setBackground(Call& call, const Values& values)
-{
-    call.picture.transparent = lowered(values.back()) == "transparent";
-    if (call.picture.transparent) return;
-    call.picture.background = colorValue("background", ", or transparent", values.back());
 }
 
 /// The words of --for.
@@ -580,14 +537,6 @@ OptionGroup solverOptions()
 }
 
 /// The words of styles and what they mean.
-std::string styleText()
-{
-    Values all;
-    for (const PictureStyle& row : styleTable())
-        all.push_back(row.word + (*row.help ? std::string(": ") + row.help : ""));
-    return wrapped(joinWords(all, "; "), helpWidth);
-}
-
 Option showOption()
 {
     Values all;
@@ -662,88 +611,35 @@ Option rulerOption()
                       parseRuler);
 }
 
-Option uprightOption(unsigned verbs)
+/// The option of a setting of pictures.
+Option picture(const char* name, unsigned verbs)
 {
-    Option upright{"up",
-                   0,
-                   "X,Y,Z",
-                   "what is upright, such as 0,0,1 of a membrane's normal;\n"
-                   "without it y, or z for a view along x or y, or of itself\n"
-                   "the normal of a membrane, where no view is asked for",
-                   "",
-                   verbs};
-    upright.set = setUpright;
-    return shownIn(Views, upright);
+    const PictureSetting& row = pictureSetting(name);
+    Option o{row.name, 0, row.value, withOptionNames(row.text), row.preset, verbs, row.words};
+    o.set = row.set;
+    return o;
 }
 
 OptionGroup pictureOptions()
 {
     constexpr unsigned draw = wholes | Convert | Compare;
-    Option view{"view",
-                0,
-                "FROM",
-                "a direction X,Y,Z toward the eye; atoms that face it, as\n"
-                "\"A/63\"; FILE.view, as -o writes it; auto: the shortest\n"
-                "extent toward the eye, the longest across",
-                "auto",
-                draw,
-                {"auto"}};
+    Option view = picture("view", draw);
     view.set = setView;
     view.file = [](const std::string& value) {
         return isViewName(value) ? std::size_t(0) : std::string::npos;
     };
-    Option background{"background",   0,
-                      "COLOR",        "as #rrggbb or #rgb, a name such as black, or transparent",
-                      "#ffffff",      draw,
-                      {"transparent"}};
-    background.set = setBackground;
-    Option plain{"plain-color",   0, "COLOR", "of a surface without --color", "#8cb5de",
-                 wholes | Convert};
-    plain.set = [](Call& call, const Values& values) {
-        call.picture.plain = colorValue("plain-color", "", values.back());
-    };
-    Option style{"style", 0, "WORD", styleText(), styleTable().front().word, draw};
-    for (const PictureStyle& row : styleTable()) style.words.push_back(row.word);
-    style.set = [words = style.words](Call& call, const Values& values) {
-        call.picture.style = findStyle(values.back());
-        if (!call.picture.style)
-            wrongValue("style", joinWords(words, ", "), values.back(),
-                       didYouMean(values.back(), words));
-    };
-    return {
-        "Picture",
-        {shownIn(Views, view), uprightOption(draw),
-         shownIn(Views, number("turn", "A", "turned by so many degrees about the upright", "0",
-                               draw, -1e9, 1e9, "a number of degrees", MOLSURF_OF(picture.turn))),
-         shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
-                               draw, 16, 16384, MOLSURF_OF(picture.width))),
-         shownIn(Pixels, background), shownIn(PlainColor, plain), shownIn(Pixels, style),
-         shownIn(Pixels, showOption()), labelOption(), rulerOption(), panelOption(),
-         shownIn(Pixels, number("opacity", "O", "of the surface, seen from the front", "1", draw,
-                                0.01, 1.0, "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
-         shownIn(Pixels, flag("all-walls", "--opacity shows what is behind the nearest wall, too",
-                              draw, MOLSURF_OF(picture.allWalls))),
-         shownIn(Pixels, number("clip", "D",
-                                "cuts away what is nearer to the eye than the middle\n"
-                                "by more than D Å, and shows the inside",
-                                "", draw, -1e6, 1e6, "a number of Å", MOLSURF_OF(picture.clip))),
-         shownIn(Pixels, flag("depth-cue", "distant parts fade to the background", draw,
-                              MOLSURF_OF(picture.depthCue))),
-         shownIn(Pixels,
-                 word("legend", "WORD",
-                      "on or off; auto: beside colours, if 600 pixels wide\n"
-                      "or more",
-                      draw, MOLSURF_OF(legend),
-                      std::vector{LegendChoice::Auto, LegendChoice::On, LegendChoice::Off})),
-         shownIn(Pixels, flag("scale-bar", "a bar below the picture that shows a length", draw,
-                              MOLSURF_OF(scaleBar))),
-         shownIn(Pixels,
-                 number("dpi", "N", "pixels an inch when it is printed; --size stays", "", draw,
-                        1.0, 10000.0, "a number from 1 to 10000", MOLSURF_OF(picture.dpi))),
-         shownIn(Pixels, count("turntable", "N",
-                               "N pictures round the upright: name.0001.png, ..., or in\na film, "
-                               "such as name.mp4",
-                               "", draw, 2, 9999, MOLSURF_OF(turntable)))}};
+    const auto pixels = [](const char* name) { return shownIn(Pixels, picture(name, draw)); };
+    return {"Picture",
+            {shownIn(Views, view), shownIn(Views, picture("up", draw)),
+             shownIn(Views, picture("turn", draw)), pixels("size"), pixels("background"),
+             shownIn(PlainColor, picture("plain-color", wholes | Convert)), pixels("style"),
+             shownIn(Pixels, showOption()), labelOption(), rulerOption(), panelOption(),
+             pixels("opacity"), pixels("all-walls"), pixels("clip"), pixels("depth-cue"),
+             pixels("legend"), pixels("scale-bar"), pixels("dpi"),
+             shownIn(Pixels, count("turntable", "N",
+                                   "N pictures round the upright: name.0001.png, ..., or in\na "
+                                   "film, such as name.mp4",
+                                   "", draw, 2, 9999, MOLSURF_OF(turntable)))}};
 }
 
 OptionGroup flowOptions()
@@ -833,12 +729,6 @@ bool Call::writesOnly(unsigned some) const
     return !outputs.empty() &&
            std::all_of(outputs.begin(), outputs.end(),
                        [=](const Output& output) { return output.holds(some); });
-}
-
-bool Call::drawsLegend() const
-{
-    constexpr int wide = 600; // pixels; in smaller pictures letters would take too much room
-    return legend == LegendChoice::On || (legend == LegendChoice::Auto && picture.width >= wide);
 }
 
 const std::vector<OptionGroup>& optionTable()

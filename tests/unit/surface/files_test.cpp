@@ -60,19 +60,28 @@ TEST(Files, DrawASurfaceWithItsLegend)
 {
     const Colored made;
     const Folder folder;
-    writePicture(made.atoms, made.surface, made.options, folder / "legend.png", 200);
+    writePicture(made.atoms, made.surface, made.options, folder / "legend.png",
+                 {{"size", "200"}, {"legend", "on"}});
     writePicture(made.surface.mesh, folder / "bare.png", 200);
     const std::string legend = contentOf(folder / "legend.png");
     const std::string bare = contentOf(folder / "bare.png");
     EXPECT_EQ(legend.substr(1, 3), "PNG");
     EXPECT_EQ(legend.substr(16, 4), bare.substr(16, 4)); // the width
     EXPECT_NE(legend, bare);
-    EXPECT_HAS(errorOf(ErrorKind::Usage,
-                       [&] {
-                           writePicture(made.atoms, made.surface, made.options,
-                                        folder / "small.png", 15);
-                       }),
-               "width: expected 16 to 16384 pixels, got 15");
+    const auto draw = [&](const char* name, const char* value) {
+        writePicture(made.atoms, made.surface, made.options, folder / "a.png",
+                     {{"size", "200"}, {name, value}});
+        return contentOf(folder / "a.png");
+    };
+    EXPECT_EQ(draw("legend", "on"), legend);
+    EXPECT_NE(draw("legend", "auto"), legend); // 200 pixels are too narrow for one
+    EXPECT_NE(draw("view", "1,0,0"), draw("view", "0,1,0"));
+    const auto errorWith = [&](const char* name, const char* value) {
+        return errorOf(ErrorKind::Usage, [&] { draw(name, value); });
+    };
+    EXPECT_HAS(errorWith("size", "15"), "`size`: expected a whole number from 16 to 16384");
+    EXPECT_HAS(errorWith("view", "A/10"), "`view`: expected auto, a direction X,Y,Z or a FILE");
+    EXPECT_HAS(errorWith("sise", "15"), "no option of pictures is named");
 }
 
 #ifndef MOLSURF_NO_VIEWER

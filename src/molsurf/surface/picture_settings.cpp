@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/picture_settings.h"
+
+#include "molsurf/color/palette.h"
+#include "molsurf/color/value_colors.h"
+#include "molsurf/picture/style.h"
+#include "molsurf/picture/view_file.h"
+#include "molsurf/structure/text_fields.h"
+#include "molsurf/surface/set_value.h"
+#include "molsurf/surface/surface_kind.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Values = std::vector<std::string>;
+
+/// A number in a range, which `range` says in words.
+template<typename Of>
+PictureSetting number(const char* name, const char* value, std::string text, std::string preset,
+                      std::pair<double, double> limits, const char* range, const Of& of)
+{
+    const double low = limits.first, high = limits.second; // clang 14 captures no bindings
+    PictureSetting row{name, value, std::move(text), std::move(preset), {}, {}};
+    row.set = [=](PictureSettings& to, const Values& v) {
+        const double given = parsedValue<double>(name, range, v.back());
+        if (!(given >= low && given <= high)) wrongValue(name, range, v.back());
+        of(to) = given;
+    };
+    return row;
+}
+
+template<typename Of>
+PictureSetting flag(const char* name, std::string text, const Of& of)
+{
+    return {name, nullptr, std::move(text),
+            "",   {},      [of](PictureSettings& to, const Values&) {
+                of(to) = true; }};
+}
+
+bool hasLength(const openvdb::Vec3d& way)
+{
+    return way.length() > 0.0 && std::isfinite(way.length());
+}
+
+PictureSetting viewSetting()
+{
+    return {"view",
+            "FROM",
+            "a direction X,Y,Z toward the eye; atoms that face it, as\n"
+            "\"A/63\"; FILE.view, as -o writes it; auto: the shortest\n"
+            "extent toward the eye, the longest across",
+            "auto",
+            {"auto"},
+            [](PictureSettings& to, const Values& values) {
+                if (!takeView(values.back(), to.picture))
+                    wrongValue("view", "auto, a direction X,Y,Z or a FILE.view", values.back());
+            }};
+}
+
+PictureSetting uprightSetting()
+{
+    return {"up",
+            "X,Y,Z",
+            "what is upright, such as 0,0,1 of a membrane's normal;\n"
+            "without it y, or z for a view along x or y, or of itself\n"
+            "the normal of a membrane, where no view is asked for",
+            "",
+            {},
+            [](PictureSettings& to, const Values& values) {
+                const auto way = directionOf(values.back());
+                if (!way || !hasLength(*way))
+                    wrongValue("up", "a direction X,Y,Z that is not 0", values.back());
+                to.picture.upright = *way;
+            }};
+}
+
+PictureSetting sizeSetting()
+{
+    return {"size", "N", "width in pixels; the height follows the shape",
+            "1200", {},  countSetter("size", 16, 16384, MOLSURF_OF(picture.width))};
+}
+
+PictureSetting backgroundSetting()
+{
+    return {"background",
+            "COLOR",
+            "as #rrggbb or #rgb, a name such as black, or transparent",
+            "#ffffff",
+            {"transparent"},
+            [](PictureSettings& to, const Values& values) {
+                to.picture.transparent = lowered(values.back()) == "transparent";
+                if (to.picture.transparent) return;
+                to.picture.background = colorValue("background", ", or transparent", values.back());
+            }};
+}
+
+PictureSetting plainColorSetting()
+{
+    return {"plain-color",
+            "COLOR",
+            "of a surface without `color`",
+            "#8cb5de",
+            {},
+            [](PictureSettings& to, const Values& values) {
+                to.picture.plain = colorValue("plain-color", "", values.back());
+            }};
+}
+
+PictureSetting styleSetting()
+{
+    Values words, all;
+    for (const PictureStyle& row : styleTable()) {
+        words.push_back(row.word);
+        all.push_back(row.word + (*row.help ? std::string(": ") + row.help : ""));
+    }
+    return {"style",
+            "WORD",
+            wrapped(joinWords(all, "; "), helpWidth),
+            styleTable().front().word,
+            words,
+            [words](PictureSettings& to, const Values& values) {
+                to.picture.style = findStyle(values.back());
+                if (!to.picture.style)
+                    wrongValue("style", joinWords(words, ", "), values.back(),
+                               didYouMean(values.back(), words));
+            }};
+}
+
+PictureSetting legendSetting()
+{
+    const std::vector<LegendChoice> choices = {LegendChoice::Auto, LegendChoice::On,
+                                               LegendChoice::Off};
+    PictureSetting row{"legend",
+                       "WORD",
+                       "on or off; auto: beside colours, if 600 pixels wide\n"
+                       "or more",
+                       nameOf(LegendChoice::Auto),
+                       {},
+                       wordSetter("legend", choices, MOLSURF_OF(legend))};
+    for (const LegendChoice choice : choices) row.words.push_back(nameOf(choice));
+    return row;
+}
+
+} // namespace
+
+std::optional<openvdb::Vec3d> directionOf(const std::string& text)
+{
+    openvdb::Vec3d way;
+    const char *from = text.data(), *end = from + text.size();
+    for (int i = 0; i < 3; ++i) {
+        const auto [stop, problem] = std::from_chars(from, end, way[i]);
+        if (problem != std::errc() || (i < 2 ? stop == end || *stop != ',' : stop != end))
+            return std::nullopt;
+        from = stop + 1;
+    }
+    return way;
+}
+
+const char* nameOf(LegendChoice choice)
+{
+    return choice == LegendChoice::On ? "on" : choice == LegendChoice::Off ? "off" : "auto";
+}
+
+bool PictureSettings::drawsLegend() const
+{
+    constexpr int wide = 600; // pixels; in smaller pictures letters would take too much room
+    return legend == LegendChoice::On || (legend == LegendChoice::Auto && picture.width >= wide);
+}
+
+const std::vector<PictureSetting>& pictureSettings()
+{
+    static const std::vector<PictureSetting> all = {
+        viewSetting(),
+        uprightSetting(),
+        number("turn", "A", "turned by so many degrees about the upright", "0", {-1e9, 1e9},
+               "a number of degrees", MOLSURF_OF(picture.turn)),
+        sizeSetting(),
+        backgroundSetting(),
+        plainColorSetting(),
+        styleSetting(),
+        number("opacity", "O", "of the surface, seen from the front", "1", {0.01, 1.0},
+               "a number from 0.01 to 1", MOLSURF_OF(picture.opacity)),
+        flag("all-walls", "`opacity` shows what is behind the nearest wall, too",
+             MOLSURF_OF(picture.allWalls)),
+        number("clip", "D",
+               "cuts away what is nearer to the eye than the middle\n"
+               "by more than D Å, and shows the inside",
+               "", {-1e6, 1e6}, "a number of Å", MOLSURF_OF(picture.clip)),
+        flag("depth-cue", "distant parts fade to the background", MOLSURF_OF(picture.depthCue)),
+        legendSetting(),
+        flag("scale-bar", "a bar below the picture that shows a length", MOLSURF_OF(scaleBar)),
+        number("dpi", "N", "pixels an inch when it is printed; `size` stays", "", {1.0, 10000.0},
+               "a number from 1 to 10000", MOLSURF_OF(picture.dpi))};
+    return all;
+}
+
+const PictureSetting& pictureSetting(const std::string& name)
+{
+    for (const PictureSetting& row : pictureSettings())
+        if (row.name == name) return row;
+    throw Error(ErrorKind::Usage, "no option of pictures is named " + inQuotes(name));
+}
+
+bool takeView(const std::string& view, DrawOptions& picture)
+{
+    if (lowered(view) == "auto") return true;
+    if (isViewName(view)) {
+        readView(view, picture);
+        return true;
+    }
+    const auto way = directionOf(view);
+    if (!way) return false;
+    if (!hasLength(*way)) wrongValue("view", "a direction X,Y,Z that is not 0", view);
+    lookFrom(*way, picture);
+    return true;
+}
+
+void setUpright(const BallSet& atoms, DrawOptions& picture)
+{
+    const bool chosen = picture.upright.lengthSqr() > 0.0 || picture.toEye.lengthSqr() > 0.0;
+    if (atoms.membrane && !chosen) picture.upright = *atoms.membrane;
+}
+
+std::function<Color(const openvdb::Vec3d&)>
+insideColors(const SurfaceOptions& options, const BallSet& atoms, const openvdb::Vec3d& origin,
+             const std::shared_ptr<const ColorOwners>& borders)
+{
+    constexpr double farthest = 30.0; // from a ball [Å]
+    if (borders)
+        return [borders](const openvdb::Vec3d& x) {
+            std::vector<OwnersPower> near;
+            borders->owners.at(x, 0.0, near);
+            return near.empty() ? neutralColor : borders->colors[std::size_t(near[0].owner)];
+        };
+    if (options.color == ColorBy::Nothing) return nullptr;
+    if (options.color != ColorBy::Value || atoms.balls.empty())
+        return [](const openvdb::Vec3d&) { return neutralColor; };
+    const auto values = std::make_shared<PointValues>(atoms, outwardOf(atoms.coloring, options));
+    return [values, origin](const openvdb::Vec3d& x) {
+        return values->colorOf(values->at(x + origin, openvdb::Vec3d(0.0), farthest));
+    };
+}
+
+} // namespace molsurf

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The options of pictures, a row each: the command line and Python's picture() take them.
+
+#include "molsurf/atoms.h"
+#include "molsurf/color/crisp_borders.h"
+#include "molsurf/options.h"
+#include "molsurf/picture/draw_mesh.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// When legends are drawn; Auto: in pictures that are 600 pixels wide or more.
+enum class LegendChoice { Auto, On, Off };
+
+/// Their words: auto, on, off.
+const char* nameOf(LegendChoice choice);
+
+/// How a picture is drawn.
+struct PictureSettings {
+    DrawOptions picture;
+    LegendChoice legend = LegendChoice::Auto;
+    bool scaleBar = false; ///< a bar of lengths below pictures
+
+    bool drawsLegend() const;
+};
+
+/// An option of pictures.
+struct PictureSetting {
+    const char* name;
+    const char* value; ///< its name in help texts; null: the option is a switch
+    std::string text;  ///< of help, with names of options in backticks
+    std::string preset;
+    std::vector<std::string> words; ///< that it takes; empty: others
+    /// @param[in] values  the last one counts
+    /// @throws Error(ErrorKind::Usage) if it is wrong
+    std::function<void(PictureSettings& to, const std::vector<std::string>& values)> set;
+};
+
+/// All of them, in the order of help texts.
+const std::vector<PictureSetting>& pictureSettings();
+
+/// The row of a name.
+/// @throws Error(ErrorKind::Usage) if there is none
+const PictureSetting& pictureSetting(const std::string& name);
+
+/// A direction X,Y,Z; none: the text is no such.
+std::optional<openvdb::Vec3d> directionOf(const std::string& text);
+
+/// Looks from where a word says: auto, a direction or a file.
+/// @return whether it is one of these
+/// @throws Error(ErrorKind::Usage) if it is a direction of no length
+/// @throws Error(ErrorKind::Input) if the file is no view
+bool takeView(const std::string& view, DrawOptions& picture);
+
+/// Puts the normal of a membrane upright, unless the options have a view.
+void setUpright(const BallSet& atoms, DrawOptions& picture);
+
+/// The colours of points inside a surface, where it is cut; null: it has none.
+/// @param[in] origin   the point of the atoms that is 0 in the mesh [Å]
+/// @param[in] borders  between the colours of the mesh; null: it has none
+std::function<Color(const openvdb::Vec3d&)>
+insideColors(const SurfaceOptions& options, const BallSet& atoms, const openvdb::Vec3d& origin,
+             const std::shared_ptr<const ColorOwners>& borders);
+
+} // namespace molsurf
