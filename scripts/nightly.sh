@@ -13,6 +13,7 @@
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
 #     wheel       scripts/wheel.sh: the Python module, its wheel and its tests
 #     package     scripts/package.sh: Debian's packages, built and tried in bare systems
+#     examples    tests/examples: the additions of CONTRIBUTING.md, built and used
 #     site        scripts/docs.sh: the pages as a site
 #     slurm       scripts/workflow/test_slurm.sh: the workflow of Snakemake on a Slurm of this machine
 # All of it takes some hours on 2 cores, in some 6 GB. What a step prints is in build-nightly/NAME.log. The exit
@@ -57,6 +58,7 @@ figures() {
 }
 wheel() { scripts/wheel.sh; }
 package() { scripts/package.sh; }
+examples() { tests/examples/check_examples.py --build build-examples; }
 site() { scripts/docs.sh; }
 slurm() {
   cmake --preset release && cmake --build --preset release --target vdb_molsurf && scripts/workflow/test_slurm.sh
@@ -67,12 +69,12 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
     --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
-    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | guides | figures | wheel | package | site | slurm) steps+=("$1") ;;
+    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | guides | figures | wheel | package | examples | site | slurm) steps+=("$1") ;;
     *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
   esac
   shift
 done
-[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls guides figures wheel package site slurm)
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls guides figures wheel package examples site slurm)
 
 scripts/install_deps.sh --test --check clang libclang-rt-dev dpkg-dev
 mkdir -p build-nightly
