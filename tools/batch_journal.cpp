@@ -115,7 +115,7 @@ void BatchJournal::enter(const BatchEntry& entry)
         summary_.entries[place->second] = entry;
 }
 
-// What other runs have appended, and this one.
+// Reads what other runs and this one have appended.
 void BatchJournal::refresh()
 {
     const std::string text = readFrom(file_, read_, path_);

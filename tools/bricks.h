@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the verbs plan, brick and merge share, and a build in bricks with them.
+/// Functions of the verbs plan, brick and merge, and of a build in bricks.
 
 #include "cli/call.h"
 #include "outputs.h"
@@ -24,7 +24,7 @@ namespace molsurf::tool
 /// "about 5e+04 voxels, 0.2 GiB of memory at most, 0.5 s on one core".
 std::string costText(const PlannedBrick& cost);
 
-/// What a plan comes to, a line each.
+/// A plan in words, a line each.
 std::vector<std::string> describePlan(const BrickPlan& plan);
 
 /// The file of brick `number` (from 1) of a plan.
@@ -56,7 +56,7 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
 /// Whether a build can be made in bricks, as far as its options tell.
 bool goesInBricks(const Call& call);
 
-/// What a surface may take by a call and on this machine.
+/// Limits of a surface by a call and on this machine.
 RunLimits limitsOf(const Call& call);
 
 /// The last line of a run.

@@ -51,7 +51,7 @@ void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result,
         });
 }
 
-// What makePrototypes() reports, behind what was read.
+// Adds the report of makePrototypes() to that of reading.
 void completeReport(const Call& call, const BallSet& balls, const Report& read, Report& report)
 {
     beginReport(call, report);

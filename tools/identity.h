@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a result is known by: the version, the options and the content of the input. Where all are
+/// Identity of a result: the version, the options and the content of the input. Where all are
 /// the same, the result is.
 
 #include "cli/call.h"

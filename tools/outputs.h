@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the verbs that write files share.
+/// Functions of the verbs that write files.
 
 #include "cli/call.h"
 #include "terminal.h"

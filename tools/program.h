@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What all programs do alike, and what differs between them.
+/// The main function of all programs, and the differences between them.
 
 #include "molsurf/error.h"
 
@@ -15,7 +15,7 @@ namespace molsurf::tool
 /// How messages begin. Each program defines its own.
 extern const char* const programName;
 
-/// What to say when memory runs out; the same.
+/// Message when memory runs out; the same.
 extern const char* const noMemoryText;
 
 /// Keeps a file that is opened from becoming standard output, if that is closed. What uses a closed
@@ -30,7 +30,7 @@ void printed(const std::string& text);
 /// the other threads then, for the end of the program to stop.
 void limitThreads(int threads);
 
-/// What main() does: sets the program up, performs, and says what goes wrong in one line.
+/// The main function: sets the program up, performs, and says what goes wrong in one line.
 /// @param[in] perform  returns the exit status where nothing goes wrong
 /// @param[in] textOf   what to say of an error
 /// @return the exit status

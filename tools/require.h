@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a mesh has to be before anything is written: --require.
+/// Conditions that a mesh meets before anything is written: --require.
 
 #include "molsurf/mesh.h"
 #include "molsurf/report.h"

@@ -24,7 +24,7 @@ void addSidecars(Call& call);
 /// this program has made, which gets one frame more.
 bool mayReplace(const Call& call, const Output& output);
 
-/// What the .usda of a volume says. The frames of a sequence are those in its folder that are of
+/// The .usda of a volume. The frames of a sequence are those in its folder that are of
 /// the same input and options, and the one that is being written.
 UsdVolume usdVolume(const Call& call, const Output& output);
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the programs share that stand in for others.
+/// Functions of the programs that replace others.
 
 #include "molsurf/io/output_file.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What people see on standard error while a run goes on.
+/// Lines on standard error while a run goes on.
 
 #include "molsurf/progress.h"
 
@@ -62,7 +62,7 @@ public:
     /// Whether the run ends because it has taken too long.
     bool overdue() const;
 
-    /// What to call when the run was cancelled.
+    /// To be called when the run was cancelled.
     /// @throws Error(ErrorKind::Numeric) if that was because it took too long
     void failIfOverdue(const std::string& hint) const;
 

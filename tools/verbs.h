@@ -48,7 +48,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
                  const std::function<void(MolecularSurface&)>& extend = nullptr,
                  const Companions& companions = {});
 
-/// What is read of a structure file: read_balls.cpp.
+/// The balls of a structure file: read_balls.cpp.
 struct DescribedBalls {
     BallSet balls;
     std::string description; ///< one line

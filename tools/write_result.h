@@ -19,7 +19,8 @@ namespace molsurf::tool
 /// Everything that is needed to make a .vdb again.
 openvdb::MetaMap vdbMetadata(const Call& call, const Report& report);
 
-/// What a surface depends on but its atoms: 16 hexadecimal digits that change with any option.
+/// Digest of all that a surface depends on but its atoms: 16 hexadecimal digits that change with
+/// any option.
 std::string optionsDigest(const Call& call);
 
 /// A table of areas.
@@ -27,7 +28,7 @@ std::string optionsDigest(const Call& call);
 Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
                 const MolecularSurface& result);
 
-/// What files show of a surface besides its mesh.
+/// Borders and levels that files show of a surface besides its mesh.
 struct ShownMeshes {
     std::shared_ptr<const ColorOwners> borders{}; ///< between its colours; null: they have none
     std::optional<Mesh> crisp{};                  ///< the mesh, with these borders cut
@@ -36,7 +37,8 @@ struct ShownMeshes {
     std::string about{};            ///< what a page shows; empty: kind and voxels of the surface
 };
 
-/// What the files of the call show, but for `coarser`: borders are found once for all of them.
+/// The meshes that the files of the call show, but for `coarser`: borders are found once for all of
+/// them.
 /// @param[in] mesh  of the surface, where the atoms are
 ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh,
                         const Progress& progress);

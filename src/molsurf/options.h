@@ -76,7 +76,7 @@ struct EvolveOptions {
     double tolerance = 0.01;
 };
 
-/// What decides the shape of a surface, and how fine it is.
+/// The shape of a surface, and how fine it is.
 struct SurfaceSpec {
     SurfaceKind kind = SurfaceKind::Variational;
     double blobbiness = 2.3;   ///< d of the Gaussian surface, no unit, in [0.1, 100]
@@ -93,9 +93,9 @@ struct SurfaceSpec {
     bool matchVolume = false;
 };
 
-/// What is made of a surface: its grids, its mesh, and the measures of its report.
+/// Products of a surface: its grids, its mesh, and the measures of its report.
 struct Wanted {
-    /// What counts as a pocket: the space that a small probe reaches and a large one, from outside,
+    /// Definition of a pocket: the space that a small probe reaches and a large one, from outside,
     /// does not. Lengths in Å.
     struct PocketRule {
         double probeIn = 1.4;  ///< radius of the small probe, in [0.5, 10]

@@ -20,7 +20,7 @@
 namespace molsurf
 {
 
-/// What the rows set.
+/// The options that the rows set.
 struct Settings {
     SelectOptions atoms;
     SurfaceOptions options;
@@ -31,7 +31,7 @@ struct Settings {
 /// The value of a setting, as it is written into files.
 using SettingValue = std::variant<bool, std::int64_t, double, std::string>;
 
-/// What the value of a setting is, written as text.
+/// Type of the value of a setting, written as text.
 enum class SettingType {
     Switch, ///< There is none: it is on or off.
     Whole,  ///< a whole number

@@ -36,7 +36,7 @@ Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& r
 /// acid.
 std::optional<double> largestArea(const std::string& residue);
 
-/// What the rows of contactTable() are between.
+/// The partners in the rows of contactTable().
 enum class ContactLevel { Atom, Residue, Chain };
 
 /// Returns the word of the command line for a level: atom, residue, chain.

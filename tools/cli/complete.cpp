@@ -165,7 +165,7 @@ std::vector<Output> outputsOf(const Call& call)
     return outputs;
 }
 
-/// What to do with many structures.
+/// A hint for many structures.
 const char* manyHint(const Call& call)
 {
     return call.verb & Build

@@ -19,7 +19,7 @@ void completeBrick(Call& call);
 void completeMerge(Call& call);
 void completeInfo(Call& call);
 
-/// What all verbs that build surfaces of structures share: also for a call that a plan keeps.
+/// Completes the call of a verb that builds surfaces of structures, and one that a plan keeps.
 void completeSurface(Call& call);
 
 } // namespace molsurf::tool

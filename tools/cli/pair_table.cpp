@@ -33,7 +33,7 @@ bool hasAreasInClosedForm(const Call& call)
     return !shown.ballAreas || isBoundary(shown);
 }
 
-/// What several units, bricks or groups of atoms have to do with each other.
+/// Rows of units, bricks and groups of atoms.
 std::vector<Pair> assemblyPairs()
 {
     const auto coloured = [](const char* what, const char* hint) {
@@ -118,7 +118,7 @@ std::vector<Pair> areaPairs()
             {"contacts", IsFor, {{Areas, "contacts"}, "areas=contacts"}, ".contacts.csv"}};
 }
 
-/// What triangles of an even size need, and what would spoil them.
+/// Rows of triangles of an even size.
 std::vector<Pair> meshPairs()
 {
     const auto nothing = [](const Call& call) { return call.outputs.empty(); };
@@ -208,7 +208,7 @@ std::vector<Pair> surfacePairs()
          }}};
 }
 
-/// What frames, files and the run have to do with each other.
+/// Rows of frames, files and the run.
 std::vector<Pair> runPairs()
 {
     const auto fromModels = [](const Call& call) { return !call.trajectory.empty(); };

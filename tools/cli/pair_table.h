@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What goes together in a call and what does not, a row each.
+/// Options that need or exclude each other, a row each.
 
 #include "cli/call.h"
 
@@ -11,7 +11,7 @@
 namespace molsurf::tool
 {
 
-/// What a call may have: an option, one value of an option, or a file of some formats.
+/// A part of a call: an option, one value of an option, or a file of some formats.
 struct Thing {
     /// @param[in] typed  "color", or with a value "color=copy"
     Thing(const char* typed, const char* name = nullptr) : words(typed), title(name) {}

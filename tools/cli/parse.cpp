@@ -120,7 +120,7 @@ Verb takeVerb(std::vector<std::string>& words)
     return Build;
 }
 
-/// What is wrong with an option that a verb does not have.
+/// Refuses an option that a verb does not have.
 [[noreturn]] void refuse(Verb verb, const std::string& typed)
 {
     const std::string name = typed.substr(std::min(typed.find_first_not_of('-'), typed.size()));

@@ -31,7 +31,7 @@ void setOptions(const GivenOptions& given, Call& call);
 /// All verbs, or those of a first word ("bricks"), a line each.
 std::string overview(const std::string& first = "");
 
-/// What --help prints for a verb: its common options, or what --help-all prints.
+/// The text of --help for a verb: its common options, or that of --help-all.
 std::string helpText(Verb verb, bool all);
 
 /// The manual page, for man.

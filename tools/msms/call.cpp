@@ -167,7 +167,7 @@ MsmsCall parseMsms(int argc, const char* const* argv)
         const Option& option = optionOf(word);
         if (!given.insert(option.name).second) fail(option.name, "expected once, got it again");
         std::string value;
-        // What is refused may take any number of values.
+        // A refused option may take any number of values.
         const bool takes = option.value[0] != '\0' && option.value[0] != '#';
         if (takes) {
             if (++i == argc) fail(option.name, std::string("expected a value: ") + option.value);

@@ -10,7 +10,7 @@
 namespace molsurf::msms
 {
 
-/// What is asked for. The defaults are those of MSMS.
+/// The user's request. The defaults are those of MSMS.
 struct MsmsCall {
     std::string input;        ///< -if
     std::string surface;      ///< -of, without an ending; empty: no surface is written
@@ -40,7 +40,7 @@ constexpr double leastProbe = 0.2;
 /// @throws Error(ErrorKind::Usage)
 MsmsCall parseMsms(int argc, const char* const* argv);
 
-/// What -h prints, and the manual page, which --man prints.
+/// The text of -h, and the manual page, which --man prints.
 std::string msmsHelp();
 std::string msmsManual();
 

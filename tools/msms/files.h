@@ -21,7 +21,7 @@ namespace molsurf::msms
 /// @param[in] ending  ".vert" or ".face"
 std::string componentName(const std::string& base, std::size_t component, const char* ending);
 
-/// What the files tell of the spheres.
+/// The spheres in the files.
 struct Spheres {
     const Structure& structure;     ///< as the file has them
     const std::vector<Ball>& balls; ///< those that are used; Ball::atom is an index in `structure`
@@ -38,7 +38,7 @@ void writeFaces(const MsmsCall& call, const Spheres& spheres, const Component& c
 /// Writes a line for every sphere of the file: number (from 0), areas, and its name if it has one.
 void writeAreas(const Spheres& spheres, const MsmsSurface& surface, OutputFile& file);
 
-/// What is printed before the work, and after it.
+/// Text before the work, and after it.
 std::string titleText(const MsmsCall& call, const Spheres& spheres);
 std::string resultText(const MsmsCall& call, const MsmsSurface& surface);
 

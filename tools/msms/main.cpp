@@ -58,7 +58,7 @@ Structure readSpheres(const MsmsCall& call)
     return structure;
 }
 
-/// What a call takes: the mesh, and then the exact surface. Measured with 1 to 30 vertices an Å^2
+/// Cost of a call: the mesh, and then the exact surface. Measured with 1 to 30 vertices an Å^2
 /// on 327 to 60,000 atoms: these give 0.8 to 1.4 times the seconds, and 1 to 1.8 times the memory.
 PlannedBrick costOf(const MsmsCall& call, const BallSet& spheres, const Progress& progress)
 {

@@ -12,7 +12,7 @@
 namespace molsurf::nanoshaper
 {
 
-/// What is asked for. The defaults are those of NanoShaper.
+/// The user's request. The defaults are those of NanoShaper.
 struct Config {
     std::string file;                    ///< its own path
     std::string input = "molecule.xyzr"; ///< XYZR_FileName
@@ -42,7 +42,7 @@ struct Config {
 ///         cannot make
 Config readConfig(const std::string& path);
 
-/// What --help prints, and the manual page, which --man prints.
+/// The text of --help, and the manual page, which --man prints.
 std::string helpText();
 std::string manualText();
 

@@ -122,7 +122,7 @@ struct ResultFile {
     std::function<void(OutputFile&)> write;
 };
 
-/// What a run has made.
+/// Results of a run.
 struct Results {
     Mesh mesh;
     std::vector<Ball> exposed;

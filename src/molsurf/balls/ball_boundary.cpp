@@ -31,7 +31,7 @@ struct Counts {
     std::uint32_t caps = 0, arcs = 0, corners = 0;
 };
 
-/// What some consecutive balls have.
+/// Patches, arcs and corners of some consecutive balls.
 struct BallParts {
     static constexpr std::size_t balls = 16; // of most
 

@@ -49,7 +49,7 @@ Vec3d directionsOf(const Arc& arc)
     return 2.0 * std::sin(arc.half) * arc.middle;
 }
 
-/// What both kinds begin with: the normals of the patches, scaled.
+/// The scaled normals of the patches, with which both kinds begin.
 /// @param[in] scale  of the area of a patch, by its radius
 template<typename Scale, typename F>
 void forEachFace(const BallBoundary& boundary, const BoundaryMeasure& measure, const Scale& scale,

@@ -17,9 +17,9 @@
 namespace molsurf
 {
 
-/// What a point of the boundary lies on. The points at a probe radius inside of a patch, an arc and
-/// a corner are those of a contact, a toric re-entrant and a spherical re-entrant face (Connolly,
-/// J. Appl. Cryst. 16:548-558, 1983).
+/// The part of the boundary that a point lies on. The points at a probe radius inside of a patch,
+/// an arc and a corner are those of a contact, a toric re-entrant and a spherical re-entrant face
+/// (Connolly, J. Appl. Cryst. 16:548-558, 1983).
 enum class BoundaryPart : std::uint8_t { Patch, Arc, Corner };
 
 /// A point of the boundary.
@@ -63,7 +63,7 @@ private:
     const BallBoundary& boundary_;
     BoxTree patches_, arcs_, corners_;
     std::vector<double> cosines_; // of half the angle of each arc; below -1: a whole circle
-    // What is left out; empty: nothing.
+    // Parts that stay; empty: all.
     std::vector<char> patchKept_, arcKept_, cornerKept_;
     std::unordered_map<std::size_t, std::vector<Side>> mixed_; // of patches kept in part
 };

@@ -42,8 +42,8 @@ struct CircleCovers {
     void resize(int count);
 };
 
-/// What caps cover of a circle, as floats: the points x e1 + y e2 with u x + v y + base > 0. Eight
-/// can be read at any place.
+/// The arcs that caps cover of a circle, as floats: the points x e1 + y e2 with u x + v y + base >
+/// 0. Eight can be read at any place.
 struct RoundedCovers {
     std::vector<float> base, u, v;
     std::vector<float> sine, holds, held; ///< used by findGaps()

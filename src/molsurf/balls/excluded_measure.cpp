@@ -23,7 +23,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// What a part of the surface adds to its piece.
+/// Area and normal that a part of the surface adds to its piece.
 struct Part {
     double area = 0.0;
     Vec3d normal = Vec3d(0.0); // integrated, outward

@@ -20,7 +20,7 @@ struct ExcludedAreas {
     double sum() const { return contact + toric + concave; }
 };
 
-/// What a probe that rests on three balls makes, for excludedGradients().
+/// The concave face under a probe that rests on three balls, for excludedGradients().
 struct ConcavePull {
     std::int32_t balls[3];   ///< places in BallBoundary::balls
     openvdb::Vec3d position; ///< of the probe [Å]
@@ -35,8 +35,8 @@ struct ExcludedMeasure {
     /// The closed pieces, in the order of their first patch, as those of a union: outer ones, and
     /// the walls of cavities. (`component` is not used: one part of the union may have several.)
     std::vector<BoundaryPiece> pieces;
-    /// What probes make whose centres lie on each of BoundaryMeasure::pieces. (Several of these
-    /// may make one of `pieces`, and one of these several.)
+    /// Areas under the probes whose centres lie on each of BoundaryMeasure::pieces. (Several of
+    /// these may make one of `pieces`, and one of these several.)
     std::vector<ExcludedAreas> areasByCentre;
     double creaseLength = 0.0; ///< of the edges where concave faces meet [Å]
     std::vector<double> areas; ///< the share of each of BallBoundary::balls [Å^2], if asked for

@@ -47,8 +47,9 @@ MOLSURF_KERNEL void lookAt(const std::vector<Candidate>& candidates, Points& poi
 
 /// Finds the balls of points that have none, as far as they are within a distance.
 /// @return whether all of them have one now
-bool settle(const std::vector<Vec3f>& points, std::size_t begin, std::size_t end,
-            const std::vector<Candidate>& candidates, float within, std::vector<std::int32_t>& out)
+bool findNearest(const std::vector<Vec3f>& points, std::size_t begin, std::size_t end,
+                 const std::vector<Candidate>& candidates, float within,
+                 std::vector<std::int32_t>& out)
 {
     constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
     bool all = true;
@@ -103,7 +104,7 @@ std::vector<std::int32_t> nearestBalls(const std::vector<Ball>& balls,
                     Vec3d(low), Vec3d(high), within, [&](const Ball& ball, std::int32_t i) {
                         candidates.push_back({Vec3f(ball.center), float(ball.radius), i});
                     });
-                missing = !settle(points, begin, stop, candidates, float(within), out);
+                missing = !findNearest(points, begin, stop, candidates, float(within), out);
                 if (within == reach) break;
             }
         }

@@ -45,7 +45,7 @@ struct Tail {
 
 constexpr double cellEdge = 20.0; // [Å]: small beside what is read around a brick
 
-/// What is stored of a ball.
+/// A ball in the file.
 struct Record {
     double x, y, z, radius;
     std::int32_t atom, chain, group, resolution; // the last three: index, or -1
@@ -180,7 +180,7 @@ bool addBall(const Record& r, const BallSet& like, BallSet& out)
     return true;
 }
 
-/// What all balls share.
+/// The header: values that all balls share.
 std::string headerText(const BallSet& atoms, const GaussianExtent& extent)
 {
     Json resolutions = Json::array(), groups = Json::array();

@@ -48,7 +48,7 @@ struct BrickMesh {
     bool closed = true, manifold = true; ///< at the owned vertices
 };
 
-/// What adds up over bricks.
+/// Sums over bricks.
 struct BrickSums {
     std::optional<EvolutionReport> evolution; ///< sums over the owned voxels, step by step
     Displacements displacements;              ///< of the last step, at the owned voxels

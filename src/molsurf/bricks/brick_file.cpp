@@ -35,7 +35,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '5'};
 
-/// What follows the magic: where the header is, its length, and the checksum of all that follows.
+/// Behind the magic: place and length of the header, and the checksum of the rest.
 struct Head {
     std::uint64_t header = 0, length = 0, checksum = 0;
 };

@@ -66,7 +66,7 @@ struct BrickHeader {
     bool meshed() const { return triangles.offset > 0; }
 };
 
-/// What is stored of a leaf, but for its values and their place.
+/// A stored leaf without its values and their place.
 template<typename LeafT>
 StoredLeaf storedLeaf(const LeafT& leaf)
 {

@@ -533,7 +533,7 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
     return plan;
 }
 
-/// What the upper nodes of OpenVDB's trees take beyond those of a compact molecule, for the grid
+/// Memory of the upper nodes of OpenVDB's trees beyond those of a compact molecule, for the grid
 /// and for the mesher's own: atoms far from each other have nodes of their own.
 double bytesOfNodes(const std::vector<Ball>& balls, double voxel)
 {

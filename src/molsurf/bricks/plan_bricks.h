@@ -23,7 +23,7 @@ BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const P
 /// which is neither the least nor the most.
 std::size_t memoryFor(const PlannedBrick& brick);
 
-/// What a run may take.
+/// Limits of a run.
 struct RunLimits {
     std::size_t memory;                            ///< [byte]
     double hours;                                  ///< by the clock
@@ -42,17 +42,17 @@ void checkCost(const PlannedBrick& cost, const RunLimits& limits);
 double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
                  const Progress& progress);
 
-/// What it takes to read, mesh and measure a surface that is stored.
+/// Cost of reading, meshing and measuring a stored surface.
 PlannedBrick costOfStored(const VdbContent& content);
 
-/// What it takes to read a mesh of a file of so many bytes.
+/// Cost of reading a mesh from a file of so many bytes.
 /// @param[in] flat  whether it has each vertex once, as numbers: .ply
 PlannedBrick costOfMesh(std::size_t bytes, bool flat);
 
-/// What it takes to compare two surfaces, both of which are there at once.
+/// Cost of comparing two surfaces, both in memory.
 PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b);
 
-/// What drawing a surface takes beside making it.
+/// Cost of drawing a surface, without that of making it.
 /// @param[in] voxels  of the surface
 /// @param[in] width   of the picture [pixel]
 PlannedBrick costOfPicture(std::size_t voxels, int width);

@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// What colours can show, a row each: words, messages, legends, borders and pages come from it.
+/// The properties that colours show, a row each: words, messages, legends, borders and pages come
+/// from it.
 
 #include "molsurf/color/color_map.h"
 #include "molsurf/color/legend.h"

@@ -46,7 +46,7 @@ void checkColors(const BallSet& atoms, ColorBy by);
 /// @return one colour a ball; all neutral without labels
 std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& progress);
 
-/// What is to be known of the colours of names, as that chains share some: a line each.
+/// Warnings about the colours of names, as that chains share some: a line each.
 std::vector<std::string> colorWarnings(const BallSet& atoms, ColorBy by);
 
 /// The colours of the chains themselves, as ballColors() gives them.

@@ -114,7 +114,7 @@ double stepsToRest(const EvolveOptions& options, const EvolutionReport& report)
     return hasFronts(options) ? 3.0 : 1.0;
 }
 
-/// What the last step of a report has to be below; no flow comes nearer to rest than the noise of
+/// Bounds of the last step of a report; no flow comes nearer to rest than the noise of
 /// its grid.
 Rest restOf(const EvolveOptions& options, double voxelSize, const EvolutionReport& report)
 {

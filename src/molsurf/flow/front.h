@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// What every step of the flow needs of the interface: its speed at the foot of each voxel, and
-/// sums over it. docs/math.md, section 4.
+/// Values at the interface that every step of the flow needs: its speed at the foot of each voxel,
+/// and sums over it. docs/math.md, section 4.
 
 #include "molsurf/flow/metric.h"
 #include "molsurf/grid/region.h"

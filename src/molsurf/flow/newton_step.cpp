@@ -80,7 +80,7 @@ MOLSURF_KERNEL void coefficientRows(const float* __restrict phiBlock,
             const Metric& m = front.metric;
             // Outward there may be no valley to stop in: beyond its shoulder w flattens out.
             const float valley = front.speed < 0.0f ? m.tangent : m.secant;
-            // What curvature takes of it at rest, where n . grad w = -w kappa:
+            // The part of curvature at rest, where n . grad w = -w kappa:
             // w (kappa^2 + k1^2 + k2^2).
             const float bend = 2.0f * m.w * (front.kappa * front.kappa - front.gauss);
             const float P = larger(valley - bend, 0.0f) + leastStiffness;

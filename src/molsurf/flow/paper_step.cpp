@@ -15,7 +15,7 @@ namespace
 // Where the speed acts, in voxels: fully up to `inner`, not at all beyond `outer`.
 constexpr float inner = 1.5f, outer = 2.25f;
 
-/// What a step of a leaf sums up.
+/// Sums of a step over a leaf.
 struct LeafSums {
     InterfaceSums interface;
     double speed = 0.0; // sum of |F| within a voxel of the interface [1/Å]

@@ -39,7 +39,7 @@ constexpr Type types[] = {{"float", 4, 2},  {"double", 8, 2},  {"int32", 4, 4},
 
 constexpr const char* frustum = "NonlinearFrustumMap"; ///< holds another map
 
-/// What a file holds of the map of a transform [byte]; it is the same for all maps of a type.
+/// Size of the map of a transform in a file [byte]; it is the same for all maps of a type.
 std::uint64_t sizeOfMap(const std::string& type)
 {
     if (type == frustum || !openvdb::math::MapRegistry::isRegistered(type))
@@ -252,7 +252,7 @@ private:
             nodeValues(values, on);
     }
 
-    /// What io::readCompressedValues() reads.
+    /// The values that io::readCompressedValues() reads.
     void nodeValues(std::uint64_t values, std::uint64_t on)
     {
         const auto kind = take<std::int8_t>();

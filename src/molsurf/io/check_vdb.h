@@ -11,7 +11,7 @@
 namespace molsurf
 {
 
-/// What a file holds, as far as it says what reading and meshing take.
+/// Contents of a file that decide the cost of reading and meshing it.
 struct VdbContent {
     std::uint64_t leaves = 0; ///< of the grid that has most
     std::uint64_t bytes = 0;  ///< of all trees in memory

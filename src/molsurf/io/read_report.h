@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a report tells of the run that wrote it.
+/// The run that wrote a report.
 
 #include <optional>
 #include <string>

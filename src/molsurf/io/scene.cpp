@@ -101,7 +101,7 @@ int lengthPower(const openvdb::GridBase& grid)
 namespace
 {
 
-/// What the values of a grid are multiplied by.
+/// Factor of the values of a grid.
 double factorOf(const openvdb::GridBase& grid, const Scene& scene)
 {
     const bool fog = grid.getName().rfind("density", 0) == 0;

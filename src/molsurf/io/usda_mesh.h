@@ -17,7 +17,7 @@
 namespace molsurf
 {
 
-/// What is written of a mesh, and how.
+/// The range of a mesh that is written, and how.
 struct UsdaMesh {
     const Mesh& mesh;
     PartRange range;

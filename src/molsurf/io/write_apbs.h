@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What APBS reads for a calculation with a given surface: maps of the dielectric, a map of where
+/// Files for a calculation of APBS with a given surface: maps of the dielectric, a map of where
 /// ions may be, charges, and its input file. docs/electrostatics.md.
 
 #include "molsurf/ball.h"

@@ -162,7 +162,7 @@ std::string shortestFloat(double value)
     return std::string(digits, std::to_chars(digits, digits + sizeof digits, float(value)).ptr);
 }
 
-/// What a reader of the mesh file must know of its colours.
+/// Comments of the mesh file on its colours.
 std::vector<std::string> colorComments(const ComparisonReport& report)
 {
     const ColorScale& color = report.color;

@@ -65,7 +65,7 @@ void chooseColors(bool bySign, double range, ComparisonReport& report);
 /// The mesh of A with the distances of its vertices from B, and their colours.
 Mesh comparisonMesh(const Mesh& a, const ComparisonReport& report);
 
-/// What these colours mean.
+/// The legend of these colours.
 Legend comparisonLegend(const ComparisonReport& report);
 
 /// Writes the mesh of A with the distances of its vertices from B, and their colours, as .ply. A

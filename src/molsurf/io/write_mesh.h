@@ -58,7 +58,7 @@ void writeOff(const Mesh& mesh, OutputFile& file);
 /// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeWrl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit = {});
 
-/// What a mesh file says of itself.
+/// Name and unit in a mesh file.
 struct MeshTitle {
     std::string name = "surface"; ///< of the object, in formats that have names
     LengthUnit unit{};            ///< in formats that are printed from

@@ -175,7 +175,7 @@ private:
         out_ << in << "}\n";
     }
 
-    /// What depends on the level of detail that is shown.
+    /// The prims of one level of detail.
     void writeLevel(std::size_t number, const std::string& in)
     {
         out_ << in;

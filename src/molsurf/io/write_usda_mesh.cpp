@@ -13,7 +13,7 @@ namespace
 
 constexpr const char *ofMesh = "vdb_molsurf, mesh", *ofFilm = "vdb_molsurf, film";
 
-/// What made a layer, its times, and the metadata of its root prim behind the kind.
+/// Creator and times of a layer, and the metadata of its root prim behind the kind.
 struct Head {
     const char* creator;
     int first = 0, last = 0; ///< of frames

@@ -92,9 +92,9 @@ MOLSURF_KERNEL void split(const float* __restrict v, float* __restrict sum,
 
 /// Unknown inner voxels become the mean of the known ones about them.
 /// @param[in] keep  1: known ones stay; 0: they become the mean, too
-MOLSURF_KERNEL void settleMeans(float* __restrict sum, float* __restrict weight, int rim,
-                                const float* __restrict sums, const float* __restrict weights,
-                                float keep)
+MOLSURF_KERNEL void takeMeans(float* __restrict sum, float* __restrict weight, int rim,
+                              const float* __restrict sums, const float* __restrict weights,
+                              float keep)
 {
     constexpr int X = MeanBlock::strideX, Y = MeanBlock::strideY;
     for (int x = rim; x < MeanBlock::dim - rim; ++x) {
@@ -168,7 +168,7 @@ SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, d
         for (int rim = 1; rim <= 3; ++rim) { // two rounds of extension, one of smoothing
             spread(sum, rim, scratch, sums);
             spread(weight, rim, scratch, weights);
-            settleMeans(sum, weight, rim, sums, weights, rim == 3 ? 0.0f : 1.0f);
+            takeMeans(sum, weight, rim, sums, weights, rim == 3 ? 0.0f : 1.0f);
         }
         std::copy_n(source.slope.leaf(n), leafSize, out.leaf(n));
         carry(sum, weight, source.psi.leaf(n), phi.leaf(n), lambda, limit, 1.0f * voxelSize,

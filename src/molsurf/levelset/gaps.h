@@ -39,7 +39,7 @@ struct Gap {
     double closedAbove(double gradient, double area) const;
 };
 
-/// What decides gaps.
+/// Weights and atoms that decide gaps.
 struct GapRule {
     double gradient = 0.0;    ///< lambda of the gradient regulariser [Å^2]
     double area = 0.0;        ///< lambda of the area regulariser

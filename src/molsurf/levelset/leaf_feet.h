@@ -17,7 +17,7 @@
 namespace molsurf
 {
 
-/// What a VoxelCube has, in the voxel order of leaves; eight can be read at any place.
+/// The feet of a VoxelCube in the voxel order of leaves; eight can be read at any place.
 struct LeafFeet {
     static constexpr int padded = leafSize + floatLanes;
 

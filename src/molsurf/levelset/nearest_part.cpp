@@ -450,7 +450,8 @@ MOLSURF_INLINE void forEachBelow(const float* keys, int count, float limit, cons
 }
 
 /// The nearest of the parts about a cube, for its voxels inside.
-MOLSURF_KERNEL void settle(VoxelCube& cube, const PartsAt& parts, float inside, const Keys& keys)
+MOLSURF_KERNEL void takeNearest(VoxelCube& cube, const PartsAt& parts, float inside,
+                                const Keys& keys)
 {
     const float radius = 0.8661f * cube.voxel;
     for (int s = 0; s < 8; ++s) {
@@ -630,8 +631,8 @@ void nearestParts(VoxelCube& cube, const LeafParts& parts, const CapLists& caps,
     takeParts(parts.arcs, keys.arcs, limit, arcNumbers, near.list, near.arcs);
     takeParts(parts.patches, keys.patches, limit, patchNumbers, near.list, near.patches);
     uncover(cube, caps, near);
-    settle(cube, {near.corners, near.arcs, near.patches, near.caps}, inside,
-           Keys(near.keys, near.corners.size, near.arcs.size, near.patches.size));
+    takeNearest(cube, {near.corners, near.arcs, near.patches, near.caps}, inside,
+                Keys(near.keys, near.corners.size, near.arcs.size, near.patches.size));
 }
 
 } // namespace molsurf

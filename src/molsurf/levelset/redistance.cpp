@@ -376,7 +376,7 @@ public:
                 const int v = voxels[first + l];
                 const Seed& seed = seeds_[index[v]];
                 if (d.lengthSqr() > farthest * farthest) {
-                    settle(index[v], v, out);
+                    seekFoot(index[v], v, out);
                     continue;
                 }
                 wait_[waiting_++] = {v,
@@ -502,14 +502,14 @@ private:
                     continue;
                 }
             }
-            settle(w.seed, w.v, out);
+            seekFoot(w.seed, w.v, out);
         }
         waiting_ = again;
     }
 
     /// The distance by a closest point that is sought until it is found: beside creases and ridges
     /// of the interface, where the surface turns within a voxel, no one step leads there.
-    void settle(std::int32_t index, int v, float* out) const
+    void seekFoot(std::int32_t index, int v, float* out) const
     {
         const Seed& seed = seeds_[std::size_t(index)];
         const Vec3d x(placeOf(v) - shift(seed));

@@ -14,7 +14,7 @@
 namespace molsurf
 {
 
-/// What reinitialize() changes beside the interface.
+/// Deviations that reinitialize() repairs beside the interface.
 enum class Repair {
     All,   ///< every deviation from a distance
     Errors ///< deviations beyond the error of the stencils: a field at rest then stays as it is

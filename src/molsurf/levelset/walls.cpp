@@ -36,7 +36,7 @@ double openRadiusOf(double voxelSize) // [voxel]
     return std::max(bumpRadius, openRadius / voxelSize);
 }
 
-/// What stands for a voxel [voxel]: as voxels come near to the depth, everything would be near.
+/// Unit of lengths near a wall [voxel]: as voxels come near to the depth, everything would be near.
 double unitAt(double depth)
 {
     return std::min(depth / 2.8, 1.0); // a probe of 1.4 Å on voxels of 0.5 Å

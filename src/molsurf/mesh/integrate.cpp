@@ -122,12 +122,12 @@ public:
         }
     }
 
-    /// What was added since the last call.
+    /// The sums since the last call.
     TriangleIntegrals take() { return std::exchange(sums_, {}); }
 
 private:
     /// Moves a point along the gradient onto S = 0, by at most `reach`; else leaves it there.
-    bool settle(Point& p, double reach)
+    bool moveToZero(Point& p, double reach)
     {
         const Vec3d start = p.x;
         Jet jet = sampler_.at(p.x);
@@ -152,7 +152,7 @@ private:
     Point middle(const Point& a, const Point& b)
     {
         Point m{0.5 * (a.x + b.x) + 0.125 * rise(a, b), Vec3d(0.0), 0.5 * (a.b + b.b)};
-        settle(m, (b.x - a.x).length());
+        moveToZero(m, (b.x - a.x).length());
         return m;
     }
 
@@ -167,7 +167,7 @@ private:
             return;
         }
         Point m{(a.x + b.x + c.x) / 3.0, Vec3d(0.0), (a.b + b.b + c.b) / 3.0};
-        if (splits < maxSplits && settle(m, (b.x - a.x).length())) {
+        if (splits < maxSplits && moveToZero(m, (b.x - a.x).length())) {
             add(a, b, m, splits + 1);
             add(b, c, m, splits + 1);
             return add(c, a, m, splits + 1);

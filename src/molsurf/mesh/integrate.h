@@ -14,7 +14,7 @@
 namespace molsurf
 {
 
-/// What integrateSurface() returns.
+/// Result of integrateSurface().
 struct IntegratedSurface {
     SurfaceIntegrals sums; ///< over the whole surface
     /// Of each vertex the integrals of H [Å] and of K [sr] over its cell: those of the triangles

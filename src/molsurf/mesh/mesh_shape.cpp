@@ -16,7 +16,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// What is gathered of some triangles.
+/// Extremes of some triangles.
 struct Extremes {
     double cosine = -1.0; // of the least angle
     double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;

@@ -64,7 +64,7 @@ private:
     const std::vector<float>&values_, &weights_;
 };
 
-/// What one pass tells.
+/// Sums of the first pass.
 struct Tally {
     double weight = 0.0, sum = 0.0;
     double min = std::numeric_limits<double>::max(), max = -min;
@@ -87,7 +87,7 @@ struct Bin {
     std::size_t end; // one past its last percentile
 };
 
-/// What a second pass tells.
+/// Sums of the second pass.
 struct Details {
     double squares = 0.0;                     // about the mean
     std::vector<std::vector<Sample>> samples; // of each bin that holds percentiles

@@ -14,7 +14,7 @@
 namespace molsurf
 {
 
-/// What is known at the vertices of a mesh on S = 0.
+/// Values at the vertices of a mesh on S = 0.
 struct SurfaceVertices {
     Mesh& mesh;                 ///< its scalars are the mean and the Gaussian curvature
     std::vector<float>& slopes; ///< |grad S|

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What explains a picture, outside of it: a legend beside it, a bar of lengths below it.
+/// Explanations outside of a picture: a legend beside it, a bar of lengths below it.
 
 #include "molsurf/color/legend.h"
 #include "molsurf/picture/draw_mesh.h"
@@ -13,7 +13,7 @@
 namespace molsurf
 {
 
-/// What explains the surface and the atoms of a picture: chains and elements of atoms join the
+/// Legends of the surface and the atoms of a picture: chains and elements of atoms join the
 /// legend that has others of them, or have one of their own.
 /// @param[in] model  null: no atoms are shown
 std::vector<Legend> legendsOf(const std::optional<Legend>& surface, const AtomModel* model);

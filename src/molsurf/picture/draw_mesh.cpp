@@ -177,7 +177,7 @@ private:
         return here;
     }
 
-    /// What edge lies between two neighbours, the first of which is not farther away.
+    /// The edge between two neighbours, the first of which is not farther away.
     Edge edgeOf(const Seen& near, const Seen& far, float jump) const
     {
         if (!far.any() || near.depth - far.depth > jump) return Jump;

@@ -32,7 +32,7 @@ struct ChartText {
     std::string text;
 };
 
-/// What a chart is drawn of, in pixels of a picture of a given width.
+/// Sizes of a chart, in pixels of a picture of a given width.
 struct Chart {
     int width, height, letters;
     std::vector<ChartLine> lines;

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the rays of a picture meet.
+/// The surfaces that the rays of a picture meet.
 
 #include "molsurf/color/crisp_borders.h"
 #include "molsurf/mesh/ray_scene.h"
@@ -38,7 +38,7 @@ inline int lightStep(const DrawOptions& options)
     return isSparse(options) ? 2 : 1;
 }
 
-/// What the eye sees in one place.
+/// The nearest point in one place of a picture.
 struct Seen {
     static constexpr float nothing = -std::numeric_limits<float>::infinity();
     static constexpr std::uint8_t cut = 255;  ///< `piece` of the inside, where it is cut
@@ -55,7 +55,7 @@ struct Seen {
     openvdb::Vec3f normal() const;                ///< to the right, up, toward the eye
 };
 
-/// What is nearest in a pixel, and its light if the pixel asks for it.
+/// The nearest point in a pixel, and its light if the pixel asks for it.
 struct PixelLight {
     openvdb::Vec3f normal{0.0f}; ///< of what is nearest, as Seen::normal()
     float depth = Seen::nothing; ///< of that [Å]
@@ -97,9 +97,9 @@ public:
     Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
            const DrawOptions& options);
 
-    /// What stands first.
+    /// The nearest layer.
     Layer first(const Progress& progress) const;
-    /// What stands behind that.
+    /// The layer behind another.
     Layer behind(const Layer& front, const Progress& progress) const;
 
     /// The lamp, as Seen::normal().

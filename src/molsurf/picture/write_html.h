@@ -41,7 +41,7 @@ struct HtmlPage {
     std::vector<std::vector<Color>> cutColors{};
 };
 
-/// What a page shows: "Surface variational, voxels of 0.5 Å. Areas are of its mesh."
+/// The line on a page's surface: "Surface variational, voxels of 0.5 Å. Areas are of its mesh."
 std::string aboutPage(const std::string& kind, double voxel);
 
 /// Finds out before any work is done whether writeHtml() has its viewer.

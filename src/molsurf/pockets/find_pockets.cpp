@@ -45,7 +45,7 @@ std::vector<std::vector<PocketReport::Lining>> liningsOf(const std::vector<Ball>
     return out;
 }
 
-/// What is reported of a basin itself.
+/// The report of a basin itself.
 /// The radius of the largest ball that gets to a mouth: exactly, where it is a neck between balls
 /// that it just passes, and not the mouth itself.
 double passingRadius(const BasinMeasure::Mouth& mouth, const Clearance& clearance, double voxelSize)

@@ -37,7 +37,7 @@ struct CellEdge {
     double clearance;
 };
 
-/// What a cell adds to a basin.
+/// Share of a cell in a basin.
 struct Share {
     std::int32_t basin;
     double volume = 0.0, wall = 0.0;
@@ -51,7 +51,7 @@ struct MouthPiece {
     std::vector<VoxelPlace> voxels;
 };
 
-/// What a leaf adds.
+/// Shares of a leaf.
 struct LeafShare {
     std::vector<Share> shares; ///< cell by cell
     std::vector<MouthPiece> mouths;

@@ -15,7 +15,7 @@
 namespace molsurf
 {
 
-/// What a basin measures.
+/// Measures of a basin.
 struct BasinMeasure {
     /// Where it ends by the cut.
     struct Mouth {

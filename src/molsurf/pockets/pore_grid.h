@@ -20,7 +20,7 @@ namespace molsurf
 class PoreGrid
 {
 public:
-    /// What the lattice covers.
+    /// Extent of the lattice.
     struct Extent {
         openvdb::Vec3d axis;      ///< a unit vector
         openvdb::Vec3d low, high; ///< along the directions of frameOf(axis) [Å]

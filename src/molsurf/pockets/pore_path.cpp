@@ -27,7 +27,7 @@ constexpr double outsideRoom = -1.0;
 // goes through the pore; with 0.05 Å the way of 7tu9 made 200 Å of detours
 constexpr double roomScale = 0.25;
 
-/// What an Å costs.
+/// Cost of an Å.
 double weightOf(double room)
 {
     return std::exp(-room / roomScale);

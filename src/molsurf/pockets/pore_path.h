@@ -24,7 +24,7 @@ struct PorePath {
     std::size_t leaves = 0;         ///< the first point of that
 };
 
-/// What a way may do.
+/// Rules of a way.
 struct PathRule {
     double near; ///< what is so near to an end need not be enclosed [Å]
     bool rises;  ///< whether it never goes down along the axis

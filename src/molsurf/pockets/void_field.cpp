@@ -33,7 +33,7 @@ public:
     {
     }
 
-    /// What is known of the cubes of a leaf. Bits are cubes.
+    /// The cubes of a leaf. Bits are cubes.
     struct Cubes {
         std::array<Vec3f, 8> centres; ///< the nearest centre of a probe to the middle of each
         std::uint8_t known = 0;       ///< which have one: only these can have room

@@ -28,7 +28,7 @@ struct VoidField {
     double voxelSize = 0.0;
     std::shared_ptr<const OuterDepth> outer; ///< the depth itself
 
-    /// What is above 0 where there is room [Å].
+    /// Room [Å]: above 0 where a probe has it.
     float room(std::size_t leaf, int voxel) const
     {
         return std::min(clearance.leaf(leaf)[voxel], below.leaf(leaf)[voxel]);

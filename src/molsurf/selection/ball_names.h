@@ -15,7 +15,7 @@
 namespace molsurf
 {
 
-/// What is added to the name of a chain in a copy: "" or "-2".
+/// Suffix of the name of a chain in a copy: "" or "-2".
 inline std::string chainSuffix(int copy)
 {
     return copy == 1 ? "" : "-" + std::to_string(copy);

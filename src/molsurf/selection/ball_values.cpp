@@ -72,7 +72,7 @@ bool lookPredicted(const Structure& structure)
     return varied && repeated >= ofResidue.size();
 }
 
-/// What B factors are multiplied by to be pLDDT from 0 to 100: 100 where they are from 0 to 1, as
+/// Factor from B factors to pLDDT from 0 to 100: 100 where they are from 0 to 1, as
 /// of ESMFold; 0: they are none.
 float plddtScale(const Structure& structure)
 {

@@ -79,7 +79,7 @@ std::vector<std::vector<Ball>> ballsOfParts(const Structure& structure, const As
     return parts;
 }
 
-/// What two operators have in common if they are the same motion, to 1e-4 of a rotation and 1e-3 Å.
+/// Key that two operators share if they are the same motion, to 1e-4 of a rotation and 1e-3 Å.
 using MotionKey = std::array<long, 12>;
 
 MotionKey keyOf(const Operator& op)

@@ -183,7 +183,7 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
     return matchPhrases(phrases, std::move(atoms));
 }
 
-void settleSelections(const SelectOptions& options, const Model& model, Structure& structure)
+void resolveSelections(const SelectOptions& options, const Model& model, Structure& structure)
 {
     std::vector<std::string> expressions{options.select, options.pocketAt};
     for (const std::string& end : poreSelections(options.pore)) expressions.push_back(end);

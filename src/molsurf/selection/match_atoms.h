@@ -31,6 +31,6 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression);
 
 /// Makes matchAtoms() give the same atoms for the selections of some options when the atoms move.
 /// Models with as many atoms as a given one have its atoms, by their order.
-void settleSelections(const SelectOptions& options, const Model& model, Structure& structure);
+void resolveSelections(const SelectOptions& options, const Model& model, Structure& structure);
 
 } // namespace molsurf

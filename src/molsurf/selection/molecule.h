@@ -12,7 +12,7 @@
 namespace molsurf
 {
 
-/// What a residue is to the molecule.
+/// Role of a residue in the molecule.
 enum class Role : std::uint8_t {
     Molecule, ///< a part of it: a polymer, or a ligand or an ion that touches one
     FreeIon,  ///< an ion that belongs to the solution

@@ -86,7 +86,7 @@ public:
         return found;
     }
 
-    /// What stands here up to a blank, a bracket or a sign; a bracket or a sign alone.
+    /// The text here up to a blank, a bracket or a sign; a bracket or a sign alone.
     string_view token() const
     {
         std::size_t end = at_;
@@ -478,7 +478,7 @@ private:
         return property(*word->isProperty);
     }
 
-    /// What follows MDAnalysis's "prop".
+    /// The words behind MDAnalysis's "prop".
     SubTree value()
     {
         in_.skipBlanks();
@@ -546,7 +546,7 @@ private:
         return treeOf(SameAs{key == "residue" ? nullptr : selectionWord(key)->isProperty, of});
     }
 
-    /// What a prefix is for: all up to the end or a bracket.
+    /// The selection behind a prefix: all up to the end or a bracket.
     /// @param[in] begin  of the prefix, if other programs end what it is for at `and` and `or`
     SubTree greedy(std::size_t begin)
     {
@@ -613,7 +613,7 @@ private:
         return chain ? nullptr : patternOf(patternText());
     }
 
-    /// What may be a phrase of gemmi's here: all up to a blank, | or & outside of its brackets and
+    /// A possible phrase of gemmi's here: all up to a blank, | or & outside of its brackets and
     /// quotes, or a bracket that closes another.
     std::string patternText() const
     {

@@ -29,7 +29,7 @@ std::string placeText(const openvdb::Vec3d& x)
     return formatted("(%.2f, %.2f, %.2f)", x[0], x[1], x[2]);
 }
 
-/// What is on both sides of the arrow, or the whole.
+/// The texts on both sides of the arrow, or the whole.
 std::vector<std::string> sidesOf(const std::string& pore)
 {
     const std::size_t arrow = pore.find("->");

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What the words of a selection say, as a tree, and the atoms that it holds for.
+/// A selection as a tree, and the atoms that it holds for.
 
 #include "molsurf/selection/selection_syntax.h"
 #include "molsurf/selection/selection_words.h"

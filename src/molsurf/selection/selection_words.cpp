@@ -18,7 +18,7 @@ using std::string_view;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// What a residue is by its name, for one that is modified or a bead.
+/// Kind of a residue by its name, for one that is modified or a bead.
 std::optional<ResidueKind> kindByName(const std::string& name)
 {
     switch (nameClass(name)) {

@@ -15,7 +15,7 @@
 namespace molsurf
 {
 
-/// What several words ask of a structure, found once.
+/// Facts of a structure that several words need, found once.
 class SelectionFacts
 {
 public:
@@ -59,7 +59,7 @@ struct PropertyWord {
     bool place = false;   ///< values change when atoms move
 };
 
-/// What an operator does with the selection that it is for.
+/// Effect of an operator on its selection.
 enum class SelectionOperator : std::uint8_t { And, Or, Not, Value, SameAs, Within, Around, Beyond };
 
 /// An operator: "and", "byres", "within".

@@ -14,7 +14,7 @@
 namespace molsurf
 {
 
-/// What the numbers of balls in groups and resolution rules count: those of a subset, or still
+/// The balls that numbers in groups and resolution rules count: those of a subset, or still
 /// those of the whole.
 enum class Counted { Subset, Whole };
 

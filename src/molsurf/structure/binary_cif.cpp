@@ -26,7 +26,7 @@ using nlohmann::json;
     throw std::runtime_error(what);
 }
 
-/// What is wrong in words of BinaryCIF, and not of the library that reads it.
+/// An error in words of BinaryCIF, and not of the library that reads it.
 std::string reasonOf(const std::exception& error)
 {
     const bool ofLibrary = dynamic_cast<const json::exception*>(&error) != nullptr;
@@ -95,7 +95,7 @@ private:
     std::string key_;
 };
 
-/// What a column is on its way from bytes to texts: one of the lists.
+/// A column on its way from bytes to texts: one of the lists.
 struct Values {
     enum class Kind { Bytes, Integers, Floats, Doubles, Texts } kind = Kind::Bytes;
     std::string bytes;

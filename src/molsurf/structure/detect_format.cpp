@@ -110,7 +110,7 @@ bool looksLikeNamedBall(string_view line)
 
 } // namespace
 
-/// What formats are told by.
+/// The parts of a file that formats are told by.
 struct StructureSample {
     StructureSample(const std::string& path, const std::string& all)
         : text(all), extension(lowerExtension(path)), binary(isBinary(all))
@@ -218,7 +218,7 @@ bool isPqr(const Sample& sample)
            (sample.ends(".pqr") || looksLikePqr(sample.text));
 }
 
-/// What people have and this program does not read, and what to do instead.
+/// Formats that this program does not read, and what to do instead.
 struct Refusal {
     const char *name, *hint;
     bool (*matches)(const Sample& sample);

@@ -13,7 +13,7 @@
 namespace molsurf
 {
 
-/// What a gemmi::Model is made of.
+/// The model that a gemmi::Model is made of.
 struct ModelNumber {
     int value;
     operator int() const { return value; }

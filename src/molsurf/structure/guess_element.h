@@ -13,7 +13,7 @@
 namespace molsurf
 {
 
-/// What is known of an atom whose element is to be found.
+/// Evidence for the element of an atom.
 struct ElementEvidence {
     std::string_view atom, residue; ///< names
     double mass = -1.0;             ///< [u]; < 0: unknown

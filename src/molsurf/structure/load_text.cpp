@@ -28,7 +28,7 @@ namespace molsurf
 namespace
 {
 
-/// What a text may have. Files of atoms shrink to a tenth, hardly ever to a fiftieth.
+/// Largest size of a text. Files of atoms shrink to a tenth, hardly ever to a fiftieth.
 struct Limit {
     explicit Limit(std::size_t maxBytes) : bytes(maxBytes ? maxBytes : std::size_t{4} << 30)
     {

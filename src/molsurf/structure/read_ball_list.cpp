@@ -161,7 +161,7 @@ int takeElement(Fields& fields)
     return element;
 }
 
-/// What a name in an xyzrn file says of the atom; see readStructure().
+/// The atom that a name in an xyzrn file stands for; see readStructure().
 Identity identityIn(string_view name)
 {
     std::vector<string_view> parts;

@@ -11,7 +11,7 @@
 namespace molsurf
 {
 
-/// What a residue's name alone says.
+/// Class of a residue by its name alone.
 enum class NameClass : std::uint8_t {
     Unknown,
     AminoAcid,         ///< one of the standard ones, by any name

@@ -20,7 +20,7 @@ namespace molsurf
 
 struct FileBonds;
 
-/// What a residue is; classifyResidues() decides. docs/structures.md has the table.
+/// Kind of a residue; classifyResidues() decides. docs/structures.md has the table.
 enum class ResidueKind : std::uint8_t {
     Protein,  ///< a standard amino acid of a chain
     Nucleic,  ///< a standard nucleotide of a chain
@@ -35,7 +35,7 @@ enum class ResidueKind : std::uint8_t {
     Bead      ///< stands for several atoms, and its name says no more
 };
 
-/// What a file says of the entity that a residue belongs to.
+/// Entity of a residue, by its file.
 enum class EntityHint : std::uint8_t { None, Polymer, Water, Other };
 
 /// A residue's identity, and what decides whether its atoms are kept.
@@ -56,7 +56,7 @@ struct Residue {
     bool hetero() const { return !water() && !polymer(); }
 };
 
-/// What is in a file in the place of an atom.
+/// Role of a record in the place of an atom.
 enum class AtomRole : std::uint8_t {
     Atom,        ///< or a bead
     Particle,    ///< none: a virtual site, a Drude particle, a lone pair
@@ -128,7 +128,7 @@ struct Structure {
     std::vector<float> charges;        ///< of the atoms of a PQR or .mol2 file [e]; else empty
     std::vector<std::string> labels;   ///< of the atoms of an xyzrn file: the last column as it
                                        ///< stands there; else empty
-    /// The atoms of selections that ask for places, as they were when settleSelections() asked.
+    /// The atoms of selections that ask for places, as they were when resolveSelections() asked.
     std::map<std::string, std::vector<char>> settled;
     bool hasRadii = false;   ///< true if every atom has the file's own radius
     bool placed = true;      ///< false if the atoms have no places yet, which then are

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What files add to the tables of areas.
+/// Columns that files add to the tables of areas.
 
 #include "molsurf/tables.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What every mesh keeps before anybody gets it.
+/// Checks of every mesh before it is handed out.
 
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What is known in closed form of a surface of a union of balls, on the union or inside of it.
+/// Measures in closed form of a surface of a union of balls, on the union or inside of it.
 
 #include "molsurf/atoms.h"
 #include "molsurf/balls/boundary_check.h"

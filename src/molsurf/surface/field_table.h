@@ -18,8 +18,8 @@ namespace molsurf
 
 class SurfaceRun;
 
-/// What the grids of balls are made of. What several of them need is computed once, when the first
-/// asks for it.
+/// Sources of the grids of balls. A source that several of them need is computed once, when the
+/// first asks for it.
 struct FieldSource {
     const BallSet& atoms;
     const SurfaceOptions& options;
@@ -51,7 +51,7 @@ struct FieldRow {
     int values = 1;         ///< numbers of a voxel
     unsigned missingIn = 0; ///< ways to a surface that cannot give it, of Way
     const char* help = "";  ///< what a help text says of it
-    /// What it needs to be asked for, too, with a hint, and whether that is.
+    /// Another request that it needs, with a hint, and whether that is given.
     const char* needs = nullptr;
     bool (*given)(const SurfaceOptions& options) = nullptr;
     bool needsLabels = false; ///< whether the balls need labels for it

@@ -95,7 +95,7 @@ private:
     BallIndex index_;
 };
 
-/// What the other group buries of a surface, and what is left without its rim.
+/// The part of a surface that the other group buries, with and without its rim.
 struct Side {
     double buriedArea = 0.0; ///< [Å^2]
     ExcludedPoints trimmed;

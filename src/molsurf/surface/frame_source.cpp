@@ -79,7 +79,7 @@ FrameSource::FrameSource(const std::string& input, const std::string& trajectory
             numbers_.push_back(int(i));
     }
     first_ = load(0);
-    settle();
+    chooseAtoms();
     if (first_.labels) {
         BallLabels& labels = *first_.labels;
         labels.chainColors = chainColors(first_, progress);
@@ -125,12 +125,12 @@ void FrameSource::chooseModels(const FrameRange& range)
     if (!has(range.last)) missing(range.last, there);
 }
 
-void FrameSource::settle()
+void FrameSource::chooseAtoms()
 {
     const auto& models = structure_.models;
     const auto first = std::find_if(models.begin(), models.end(),
                                     [&](const Model& m) { return m.number == number(0); });
-    settleSelections(atoms_, trajectory_ ? models[model_] : *first, structure_);
+    resolveSelections(atoms_, trajectory_ ? models[model_] : *first, structure_);
 }
 
 void FrameSource::update()

@@ -66,7 +66,7 @@ public:
 
 private:
     /// Keeps the atoms of selections by distance as they are in the first frame.
-    void settle();
+    void chooseAtoms();
     BallSet load(std::size_t i);
     void keepColors(BallSet& selection);
     [[noreturn]] void missing(int number, const std::string& there) const;

@@ -43,7 +43,7 @@ Areas areasOf(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls, Progr
     return {made.report.surface.area, std::move(made.ballAreas)};
 }
 
-/// What two groups bury of each other's balls.
+/// Areas that two groups bury of each other's balls.
 /// @param[in] groups    indices of their balls, ascending
 /// @param[in] alone     areas of each group alone
 /// @param[in] together  of both, the balls in ascending order
@@ -100,7 +100,7 @@ Members membersOf(const BallSet& atoms)
     return out;
 }
 
-/// What areas depend on: a subset of many groups would copy the names of all.
+/// The balls without names, which areas do not need: a subset of many groups would copy all.
 BallSet withoutNames(const BallSet& atoms)
 {
     BallSet bare;

@@ -19,7 +19,7 @@ namespace
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// What the atoms that line a pocket are.
+/// The atoms that line a pocket.
 struct Lining {
     std::string residues, atoms;     ///< names and numbers, with spaces between
     double hydrophobicity = unknown; ///< mean over the wall

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What is computed of a molecule that motions repeat.
+/// Runs of a molecule that motions repeat.
 
 #include "molsurf/surface.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What sets a value from a word that a person typed: functions of a target and its values, for
+/// Setters of values from words that a person typed: functions of a target and its values, for
 /// tables of options. `of` gives the variable of a target that is set.
 
 #include "molsurf/core/words.h"

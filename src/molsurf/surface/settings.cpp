@@ -171,7 +171,7 @@ ResolutionRule parseResolution(const std::string& text)
     return rule;
 }
 
-/// What `fields` takes, and what "all" stands for.
+/// The words of `fields`, without "all".
 Values knownFields()
 {
     Values names = {"surface"};

@@ -137,7 +137,7 @@ Vec3d footOf(const Interface& interface, const Vec3d& point, const Vec3d& normal
     return point + (interface.offset + way) * normal;
 }
 
-/// What some nodes add to the derivatives of balls.
+/// Derivatives of balls from some nodes.
 using Sums = std::map<std::int32_t, std::pair<Vec3d, Vec3d>>;
 
 /// Adds the motion of a node.

@@ -16,7 +16,7 @@
 namespace molsurf
 {
 
-/// What is known of a border that was fitted.
+/// A border that was fitted.
 struct BorderFit {
     std::vector<SharedVertex> shared; ///< every vertex of the border, once for each neighbour
     std::size_t open = 0;             ///< edges of the border that fit none of a neighbour's

@@ -59,7 +59,7 @@ public:
             x = own + t * (foreign - own);
             return at(x);
         });
-        settle(x, jet, [&](const Vec3d& y, Mat3d& rows, Vec3d& values) {
+        solve(x, jet, [&](const Vec3d& y, Mat3d& rows, Vec3d& values) {
             const PowerExcess e = excess(y, strongest);
             other = e.other;
             rows.setRow(1, e.slope);
@@ -74,7 +74,7 @@ public:
     Vec3d corner(const Vec3d& start, std::int32_t first, std::int32_t second, Jet& jet)
     {
         Vec3d x = start;
-        settle(x, jet, [&](const Vec3d& y, Mat3d& rows, Vec3d& values) {
+        solve(x, jet, [&](const Vec3d& y, Mat3d& rows, Vec3d& values) {
             const PowerExcess one = excess(y, first), two = excess(y, second);
             rows.setRow(1, one.slope);
             rows.setRow(2, two.slope);
@@ -89,7 +89,7 @@ private:
     /// Newton's method of least cutSteps for S = 0 and further equations. Where it fails, x stays
     /// on the border but off the surface.
     template<typename F>
-    void settle(Vec3d& x, Jet& jet, const F& further)
+    void solve(Vec3d& x, Jet& jet, const F& further)
     {
         const Vec3d start = x;
         for (int i = 0; i < cutSteps; ++i) {
@@ -158,7 +158,7 @@ struct CutEdge {
     std::uint32_t triangle;
 };
 
-/// What follows a vertex of the border.
+/// The next step from a vertex of the border.
 struct CutStep {
     std::uint32_t to;
     std::int32_t other; ///< the owner beyond the edge that ends there

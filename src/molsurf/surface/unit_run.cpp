@@ -68,7 +68,7 @@ std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Pro
     return std::move(share.areas);
 }
 
-/// What is known of the whole in closed form.
+/// The measures of the whole in closed form.
 MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& options,
                                     Progress& progress)
 {

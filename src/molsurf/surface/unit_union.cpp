@@ -33,7 +33,7 @@ struct MeasuredUnion {
     }
 };
 
-/// What the unit has of the Euler characteristic. Faces, arcs and corners of the boundary count
+/// Share of the unit in the Euler characteristic. Faces, arcs and corners of the boundary count
 /// with the mean weight of the balls whose spheres they lie on. Where many spheres meet in a point
 /// or a circle, which arcs and corners there are depends on how placedBalls() moves them, and that
 /// differs from unit to unit: which spheres meet there does not.

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What a symmetric unit has of a union of balls, in closed form.
+/// Shares of a symmetric unit in a union of balls, in closed form.
 
 #include "molsurf/atoms.h"
 #include "molsurf/balls/ball_index.h"

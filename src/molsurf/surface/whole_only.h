@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// What needs the whole molecule, or its voxels, at once: a row an option.
+/// Options that need the whole molecule, or its voxels, at once: a row each.
 
 #include "molsurf/options.h"
 
@@ -19,7 +19,7 @@ enum Way : unsigned {
     ByAtom = 8        ///< with areas of atoms
 };
 
-/// What the options ask for that a way cannot give, in backticks; "": it gives all of it.
+/// The request of the options that a way cannot give, in backticks; "": it gives all.
 std::string missingIn(Way way, const SurfaceOptions& options);
 
 /// Checks that a way gives all of what the options ask for.

@@ -238,7 +238,7 @@ TEST(Words, AreSettledByTheFirstModel)
     options.select = "same x as index 5";
     options.groups = {{"near", "chain A within 4 of resid 3", {}}, {"all", "name CA", {}}};
     options.resolutions = {{"z < 3", 5.0}};
-    settleSelections(options, first, s);
+    resolveSelections(options, first, s);
     EXPECT_EQ(s.settled.size(), 3u);
     EXPECT_EQ(s.settled.count("name CA"), 0u);
     for (const auto& [phrase, atoms] : s.settled) {
@@ -253,7 +253,7 @@ TEST(Words, AreSettledByTheFirstModel)
     Structure other = readStructure(dataFile("1d3z.pdb.gz"));
     const AtomMatch own = matchAtoms(other, options.select);
     other.models[2].end -= 1; // no other has its size
-    settleSelections(options, other.models[2], other);
+    resolveSelections(options, other.models[2], other);
     EXPECT_EQ(other.settled.at(options.select), own.atoms);
 }
 
