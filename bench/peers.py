@@ -274,6 +274,29 @@ class FreeSASA(Program):
         return {"area": float(re.search(r"^Total\s*:\s*([\d.]+)", output, re.M).group(1))}
 
 
+class RustSASA(Program):
+    """As FreeSASA, by the package rust-sasa-python of the Python that RUST_SASA_PYTHON names."""
+
+    name, surface = "RustSASA, 100 points an atom", "SAS"
+    settings = ()
+    python = os.environ.get("RUST_SASA_PYTHON", "")
+    script = """
+import sys, numpy, rust_sasa_python
+balls = numpy.loadtxt(sys.argv[1])
+atoms = [((x, y, z), r, i) for i, (x, y, z, r) in enumerate(balls.tolist())]
+print(sum(rust_sasa_python.calculate_sasa_internal(atoms, 1.4, 100, 2)))
+"""
+
+    def prepare(self, case, folder):
+        np.savetxt(os.path.join(folder, "rust.xyzr"), case.balls, fmt="%.4f")
+
+    def command(self, case, folder):
+        return [self.python, "-c", self.script, os.path.join(folder, "rust.xyzr")]
+
+    def result(self, case, folder, output):
+        return {"area": float(output.split()[-1])}
+
+
 class Case:
     def __init__(self, path, voxel):
         self.path, self.voxel, self.balls = os.path.abspath(path), voxel, read_balls(path)
@@ -281,12 +304,12 @@ class Case:
 
 
 def run_once(program, case, folder, limit):
-    """Seconds, peak memory [MB] and output of a whole process."""
+    """Seconds by the clock and of the processor, peak memory [MB] and output of a whole process."""
     # What wait4() says counts the memory of this script, too; time(1) is small.
     used = os.path.join(folder, "memory.txt")
     with tempfile.TemporaryFile() as output:
         start = time.monotonic()
-        process = subprocess.Popen([shutil.which("time"), "-f", "%M", "-o", used, *program.command(case, folder)],
+        process = subprocess.Popen([shutil.which("time"), "-f", "%U %S %M", "-o", used, *program.command(case, folder)],
                                    cwd=folder, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
         killed = False
         while True:
@@ -305,7 +328,8 @@ def run_once(program, case, folder, limit):
         raise RuntimeError(f"stopped after {limit} s")
     if process.returncode != 0:
         raise RuntimeError(f"status {process.returncode}: {text.strip().splitlines()[-1:]}")
-    return seconds, float(open(used).read().split()[-1]) / 1024.0, text
+    user, system, kilobytes = map(float, open(used).read().split()[-3:])
+    return seconds, user + system, kilobytes / 1024.0, text
 
 
 def reference(tool, case, kind, threads):
@@ -320,7 +344,7 @@ def reference(tool, case, kind, threads):
 
 def measure(case, programs, runs, limit):
     """Rounds in which every program runs once; one that fails drops out, with the reason."""
-    rows = {p.name: {"seconds": [], "memory": 0.0} for p in programs}
+    rows = {p.name: {"seconds": [], "cpu": [], "memory": 0.0} for p in programs}
     with tempfile.TemporaryDirectory() as folder:
         for program in programs:
             program.prepare(case, folder)
@@ -330,11 +354,12 @@ def measure(case, programs, runs, limit):
                 if "error" in row:
                     continue
                 try:
-                    seconds, memory, text = run_once(program, case, folder, limit)
+                    seconds, cpu, memory, text = run_once(program, case, folder, limit)
                     if turn == 0:
                         row.update(program.result(case, folder, text))
                     else:
                         row["seconds"].append(seconds)
+                        row["cpu"].append(cpu)
                         row["memory"] = max(row["memory"], memory)
                 except (RuntimeError, OSError, ValueError, AttributeError, IndexError) as error:
                     row["error"] = str(error)[:80]
@@ -427,7 +452,8 @@ def main():
                               ("pymol", shutil.which("pymol"), PyMOL(not options.equal_error)),
                               ("NanoShaper", shutil.which("NanoShaper"), NanoShaper()),
                               ("molstar", Molstar.found(), Molstar()),
-                              ("freesasa", shutil.which("freesasa"), FreeSASA())):
+                              ("freesasa", shutil.which("freesasa"), FreeSASA()),
+                              ("rust-sasa-python", RustSASA.python, RustSASA())):
         if options.equal_error and not peer.settings:
             continue
         if found:
@@ -452,17 +478,18 @@ def main():
         rows = measure(case, programs, options.runs, options.limit)
         own = rows[programs[0].name]
         print(f"### {case.name}: {len(case.balls)} atoms, {options.voxel} Å\n")
-        print("| program | surface | s | min-max | ratio to the first | MB | area % | volume % | closed |")
-        print("|---|---|---|---|---|---|---|---|---|")
+        print("| program | surface | s | min-max | CPU s | ratio to the first | MB | area % | volume % | closed |")
+        print("|---|---|---|---|---|---|---|---|---|---|")
         for program in programs:
             row = rows[program.name]
             if "error" in row or not row["seconds"]:
-                print(f"| {program.name} | {program.surface} | {row.get('error', 'no run')} | | | | | | |")
+                print(f"| {program.name} | {program.surface} | {row.get('error', 'no run')} | | | | | | | |")
                 continue
             ratios = [a / b for a, b in zip(row["seconds"], own["seconds"])]
             area, volume = exact.get(program.surface, (None, None))
             print(f"| {program.name} | {program.surface} | {statistics.median(row['seconds']):.2f} | "
-                  f"{min(row['seconds']):.2f}-{max(row['seconds']):.2f} | {statistics.median(ratios):.2f} "
+                  f"{min(row['seconds']):.2f}-{max(row['seconds']):.2f} | {statistics.median(row['cpu']):.2f} | "
+                  f"{statistics.median(ratios):.2f} "
                   f"({min(ratios):.2f}-{max(ratios):.2f}) | {row['memory']:.0f} | {per_cent(row.get('area'), area)} | "
                   f"{per_cent(row.get('volume'), volume)} | {row.get('closed', '')} |")
         print(flush=True)
