@@ -13,7 +13,8 @@ the exact surface (vdb_molsurf --surface ses at a quarter of the voxel, or --ref
 its mesh is closed. With --equal-error each program takes the coarsest of its grids whose mesh is within 1 % of
 the exact area and 0.1 % of the exact volume, and that is timed; else its finest. Needs python3-numpy and time. Debian has EDTSurf (edtsurf), PyMOL (pymol) and FreeSASA
 (freesasa); NanoShaper is used if it is on PATH, and Mol* if node is, and finds its package: `npm
-install molstar` in a folder, and NODE_PATH=FOLDER/node_modules.
+install molstar` in a folder, and NODE_PATH=FOLDER/node_modules; RustSASA if RUST_SASA_PYTHON names a Python that
+has rust-sasa-python.
 """
 import argparse
 import contextlib
@@ -403,7 +404,7 @@ def equal_error(paths, programs, tool, options):
                     if not found[p][0]:
                         continue
                     try:
-                        used, most, text = run_once(p, found[p][0], folders[p], options.limit)
+                        used, _, most, text = run_once(p, found[p][0], folders[p], options.limit)
                     except RuntimeError as error:  # near the limit
                         found[p] = None, str(error)
                         continue
