@@ -275,7 +275,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     for (const auto& grid : result.grids()) grid->setCreator(creator);
 
     if (call.center) centerMesh(call, result);
-    if (!call.panels.empty()) call.panelSurfaces = makePanels(call, balls, result.mesh, terminal);
+    if (!call.panels.empty()) makePanels(call, balls, result.mesh, terminal);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
     if (!call.writes(Grids | Stage | Volume | Solver)) dropGrids(result);
@@ -396,7 +396,9 @@ int build(const Call& asked, Clock::time_point start)
         return *status;
     }
     if (call.options.grid && (call.memory > 0 || call.dryRun)) return buildInBricks(call, start);
-    return endOf(buildSurface(call, start), moreSteps(call));
+    call.panelSurfaces = std::make_shared<std::vector<PanelSurface>>();
+    const int status = endOf(buildSurface(call, start), moreSteps(call));
+    return std::max(status, endOf(*call.panelSurfaces));
 }
 
 std::string moreSteps(const Call& call)

@@ -273,24 +273,43 @@ void writeGlb(const Writing& w, OutputFile& file)
              file);
 }
 
+/// A surface with what a page shows of it.
+HtmlPage pageOf(const Drawn& d, const ShownMeshes& shown)
+{
+    const DrawOptions view = pictureOf(d.call, d.atoms, d.mesh, true, d.progress);
+    HtmlPage page;
+    page.title = displayName(inputStem(d.call.input));
+    page.about = shown.about;
+    page.legends = d.legend ? std::vector{*d.legend}
+                            : offeredLegends(d.call.options.color, d.atoms, d.mesh, d.progress);
+    page.plain = d.call.picture.plain;
+    page.axes = viewAxes(d.mesh, view);
+    page.instances = view.instances;
+    page.copiesFirst = d.call.colorsCopies();
+    if (d.atoms.names)
+        nameAtoms(*d.atoms.names, placedBalls(d.call, d.atoms), d.mesh, d.progress, page);
+    colorCut(d.atoms, placedBalls(d.call, d.atoms), d.progress, page);
+    return page;
+}
+
 void writePage(const Writing& w, OutputFile& file)
 {
-    const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
-    HtmlPage page{
-        displayName(inputStem(w.call.input)),
-        w.shown.about.empty() ? aboutPage(w.result.report.surface.kind, w.call.options.voxel)
-                              : w.shown.about,
-        w.shown.legend ? std::vector{*w.shown.legend}
-                       : offeredLegends(w.call.options.color, w.atoms, w.mesh, w.progress),
-        w.call.picture.plain,
-        viewAxes(w.mesh, view),
-        view.instances,
-        w.call.colorsCopies(),
-        w.coarser};
-    if (w.atoms.names)
-        nameAtoms(*w.atoms.names, placedBalls(w.call, w.atoms), w.mesh, w.progress, page);
-    colorCut(w.atoms, placedBalls(w.call, w.atoms), w.progress, page);
-    writeHtml(w.mesh, page, file);
+    std::vector<HtmlLayer> layers = {{w.mesh, pageOf(drawnOf(w), w.shown)}};
+    layers[0].page.name = firstName(w.call);
+    layers[0].page.coarser = w.coarser;
+    if (w.shown.about.empty())
+        layers[0].page.about = aboutPage(w.result.report.surface.kind, w.call.options.voxel);
+    const std::vector<PanelSurface> none;
+    for (const PanelSurface& panel : w.call.panelSurfaces ? *w.call.panelSurfaces : none) {
+        const Mesh& mesh = panel.shown.crisp ? *panel.shown.crisp : panel.mesh;
+        HtmlPage page =
+            pageOf({w.call, panel.atoms, mesh, panel.shown.borders, {}, w.progress}, panel.shown);
+        page.name = panel.name;
+        page.inPlace = panel.inPlace;
+        if (!panel.inPlace) layers[0].page.title += ", " + displayName(panel.name);
+        layers.push_back({mesh, std::move(page)});
+    }
+    writeHtml(std::move(layers), file);
 }
 
 void writeMesh(const Writing& w, OutputFile& file)

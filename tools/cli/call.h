@@ -121,8 +121,11 @@ struct Output {
 
 /// A further picture beside the first one.
 struct Panel {
-    std::string file;          ///< of another structure; empty: the same from somewhere else
-    openvdb::Vec3d toEye{0.0}; ///< the direction of that
+    std::string file{};                ///< of another structure; empty: it is of the same
+    openvdb::Vec3d toEye{0.0};         ///< from there
+    std::optional<SurfaceKind> kind{}; ///< or of that kind
+
+    bool hasSurface() const { return !file.empty() || kind; }
 };
 
 /// The values of the options that were given, by name; in the order of the command line if one was
@@ -196,8 +199,8 @@ struct Call : Settings {
     std::string inputSha256, identity; ///< as tools/identity.h has them; empty: not known yet
     std::size_t brick = 0;             ///< BricksRun: its number, from 1
     std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
-    /// Of `panels` with a file; null: they are not made yet.
-    std::shared_ptr<const std::vector<PanelSurface>> panelSurfaces;
+    /// Of `panels` that have one, once they are made.
+    std::shared_ptr<std::vector<PanelSurface>> panelSurfaces;
     int frame = 0;                     ///< the number of the one that is built; 0: none is
     std::vector<std::string> warnings; ///< one line each
     /// Of the files in the folders of frames.
@@ -219,6 +222,7 @@ struct Call : Settings {
         bool any = such(options.kind) ||
                    (hasField(options.fields, "sas") && such(SurfaceKind::SolventAccessible));
         for (const auto& [group, kind] : options.surfaceOf) any = any || such(kind);
+        for (const Panel& panel : panels) any = any || (panel.kind && such(*panel.kind));
         return any;
     }
 

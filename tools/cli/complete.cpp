@@ -4,6 +4,7 @@
 #include "cli/option_table.h"
 #include "cli/pair_table.h"
 #include "cli/verb_table.h"
+#include "draw_result.h"
 #include "outputs.h"
 #include "sidecar.h"
 
@@ -420,6 +421,7 @@ void completeSurface(Call& call)
     SurfaceOptions& options = call.options;
     checkOptions(call.atoms);
     checkOptions(options);
+    for (const Panel& panel : call.panels) checkOptions(panelOptions(options, panel));
 
     warnOfKinds(call);
     if (options.voxel > coarseVoxel)

@@ -11,6 +11,7 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/set_value.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <charconv>
@@ -609,6 +610,14 @@ Option showOption()
     return show;
 }
 
+/// The kind of surface that a word names.
+std::optional<SurfaceKind> surfaceKindOf(const std::string& word)
+{
+    for (const KindRow& row : kindTable())
+        if (lowered(word) == row.word) return row.kind;
+    return std::nullopt;
+}
+
 Option panelOption()
 {
     Option panel{"panel",
@@ -616,22 +625,26 @@ Option panelOption()
                  "WHAT",
                  "a further picture beside the first, with its camera, scale\n"
                  "and legend: the FILE of another structure, or the same one\n"
-                 "from X,Y,Z; repeats",
+                 "from X,Y,Z or with a surface of another KIND; a page shows\n"
+                 "files and kinds side by side or in turn; repeats",
                  "",
                  Build};
     panel.repeats = true;
     panel.file = [](const std::string& value) {
-        return directionOf(value) ? std::string::npos : std::size_t(0);
+        return directionOf(value) || surfaceKindOf(value) ? std::string::npos : std::size_t(0);
     };
     panel.set = [](Call& call, const Values& values) {
         for (const std::string& value : values) {
             const auto way = directionOf(value);
             if (value.empty() || (way && !(way->length() > 0.0 && std::isfinite(way->length()))))
                 wrongValue("panel", "a file or a direction X,Y,Z that is not 0", value);
-            call.panels.push_back(way ? Panel{"", *way} : Panel{value});
+            const auto kind = surfaceKindOf(value);
+            call.panels.push_back(way    ? Panel{"", *way}
+                                  : kind ? Panel{"", openvdb::Vec3d(0.0), kind}
+                                         : Panel{value});
         }
     };
-    return shownIn(Pixels, panel);
+    return shownIn(Pixels | ColorChoices, panel);
 }
 
 /// An option that adds to the notes of pictures.
