@@ -11,6 +11,7 @@
 #include "molsurf/color/value_colors.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/picture/atom_model.h"
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/panels.h"
 #include "molsurf/picture/view.h"
@@ -90,6 +91,15 @@ void setUpright(const BallSet& atoms, DrawOptions& picture)
 {
     const bool chosen = picture.upright.lengthSqr() > 0.0 || picture.toEye.lengthSqr() > 0.0;
     if (atoms.membrane && !chosen) picture.upright = *atoms.membrane;
+}
+
+void showBodies(const Mesh& bodies, DrawOptions& picture)
+{
+    if (bodies.triangles.empty()) return;
+    const auto model =
+        picture.model ? std::make_shared<AtomModel>(*picture.model) : std::make_shared<AtomModel>();
+    addBodies(bodies, *model);
+    picture.model = model;
 }
 
 DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,

@@ -56,6 +56,9 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
 /// Sets what is up of a membrane, where the call says nothing of it.
 void setUpright(const BallSet& atoms, DrawOptions& picture);
 
+/// Shows bodies among the atoms of a picture.
+void showBodies(const Mesh& bodies, DrawOptions& picture);
+
 /// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
 /// for every voxel.
 DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,

@@ -15,6 +15,7 @@
 #include "molsurf/color/legend.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
+#include "molsurf/io/part_ranges.h"
 #include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
@@ -297,6 +298,8 @@ void writePage(const Writing& w, OutputFile& file)
     std::vector<HtmlLayer> layers = {{w.mesh, pageOf(drawnOf(w), w.shown)}};
     layers[0].page.name = firstName(w.call);
     layers[0].page.coarser = w.coarser;
+    layers[0].page.opacity = w.call.picture.opacity;
+    if (w.call.showsPockets) layers[0].page.bodies = w.shown.bodies.get();
     if (w.shown.about.empty())
         layers[0].page.about = aboutPage(w.result.report.surface.kind, w.call.options.voxel);
     const std::vector<PanelSurface> none;
@@ -306,6 +309,7 @@ void writePage(const Writing& w, OutputFile& file)
             pageOf({w.call, panel.atoms, mesh, panel.shown.borders, {}, w.progress}, panel.shown);
         page.name = panel.name;
         page.inPlace = panel.inPlace;
+        if (panel.inPlace) page.bodies = layers[0].page.bodies;
         if (!panel.inPlace) layers[0].page.title += ", " + displayName(panel.name);
         layers.push_back({mesh, std::move(page)});
     }
@@ -357,6 +361,32 @@ void writeTube(const Writing& w, OutputFile& file)
             format.write(tubeOf(w), {stemOf(w.output.path), printUnit(w.call)}, file);
 }
 
+/// The body of one pocket where the mesh lies.
+Mesh bodyOf(const Writing& w)
+{
+    const Mesh& all = *w.shown.bodies;
+    const PartRange part = partRanges(all, "").at(w.output.pocket - 1);
+    Mesh body;
+    for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
+        body.positions.emplace_back(openvdb::Vec3d(all.positions[v]) - originOf(w.call));
+        body.normals.push_back(all.normals[v]);
+        body.colors.push_back(all.colors[v]);
+    }
+    const auto first = std::uint32_t(part.firstVertex);
+    for (std::size_t t = part.firstTriangle; t < part.triangleEnd; ++t) {
+        const auto& corners = all.triangles[t];
+        body.triangles.push_back({corners[0] - first, corners[1] - first, corners[2] - first});
+    }
+    return body;
+}
+
+void writeBody(const Writing& w, OutputFile& file)
+{
+    for (const MeshFormat& format : meshFormats())
+        if ("pockets." + std::string(format.word) == w.output.format->word)
+            format.write(bodyOf(w), {stemOf(w.output.path), printUnit(w.call)}, file);
+}
+
 template<int axis>
 void writeDielectric(const Writing& w, OutputFile& file)
 {
@@ -400,6 +430,8 @@ std::vector<Format> areaFormats()
 {
     constexpr const char* ofAreas = "table of areas";
     constexpr const char* ofPore = ""; // --pore says it
+    constexpr unsigned ofPocket = Areas | Numbered;
+    constexpr const char* perPocket = ""; // --pockets says it
     constexpr const char* withAreas = "areas as B factors";
     constexpr unsigned built = Build | Batch;
     return {
@@ -424,6 +456,18 @@ std::vector<Format> areaFormats()
              options.name = stemOf(w.output.path);
              options.scale = w.call.scene.scale;
              writeGlb(tubeOf(w), options, file);
+         }},
+        {"pockets.ply", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.obj", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.stl", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.off", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.vtk", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.glb", Build, ofPocket, perPocket, "pockets",
+         [](const Writing& w, OutputFile& file) {
+             GlbOptions options;
+             options.name = stemOf(w.output.path);
+             options.scale = w.call.scene.scale;
+             writeGlb(bodyOf(w), options, file);
          }},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},

@@ -65,6 +65,7 @@ enum Holds : unsigned {
     Script = 1 << 19,           ///< what opens another file of the run
     Solver = 1 << 21,           ///< what APBS reads
     Shares = 1 << 22,           ///< shares of frames, on voxels
+    Numbered = 1 << 24,         ///< a file of each pocket
     Moving = 1 << 23            ///< the pictures of a turntable or of frames in one film
 };
 
@@ -112,6 +113,7 @@ struct Output {
     std::string path; ///< "-" is standard output
     const Format* format;
     std::string beside{};         ///< of a Stage: the .vdb that it shows, or the .usda of a frame
+    std::size_t pocket = 0;       ///< of a Numbered one: which, from 1
     double turn = 0.0;            ///< of a picture of a turntable, beside that of all [degree]
     std::shared_ptr<Film> film{}; ///< of all frames, which gets a picture of each; null: none
 
@@ -176,6 +178,7 @@ struct Call : Settings {
     DrawOptions picture;
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none
     std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
+    bool showsPockets = false;   ///< whether pictures and pages show the bodies of pockets
     std::vector<NoteRule> notes; ///< labels and rulers of pictures
     std::vector<Panel> panels;   ///< of pictures, beside the first one
     LegendChoice legend = LegendChoice::Auto;

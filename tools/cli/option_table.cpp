@@ -593,6 +593,7 @@ Option showOption()
 {
     Values all;
     for (const AtomStyle& row : atomStyles()) all.push_back(row.word + ": "s + row.help);
+    all.push_back("or pockets: their bodies, in pages too");
     Option show{
         "show",
         0,
@@ -603,9 +604,14 @@ Option showOption()
         "",
         Build | Batch};
     for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
+    show.words.push_back("pockets");
     show.repeats = true;
     show.set = [](Call& call, const Values& values) {
-        for (const std::string& value : values) call.shows.push_back(parseShow(value));
+        for (const std::string& value : values)
+            if (lowered(value) == "pockets")
+                call.showsPockets = true;
+            else
+                call.shows.push_back(parseShow(value));
     };
     return show;
 }
@@ -731,9 +737,10 @@ OptionGroup pictureOptions()
          shownIn(Pixels, count("size", "N", "width in pixels; the height follows the shape", "1200",
                                draw, 16, 16384, MOLSURF_OF(picture.width))),
          shownIn(Pixels, background), shownIn(PlainColor, plain), shownIn(Pixels, style),
-         shownIn(Pixels, showOption()), labelOption(), rulerOption(), panelOption(),
-         shownIn(Pixels, number("opacity", "O", "of the surface, seen from the front", "1", draw,
-                                0.01, 1.0, "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
+         shownIn(Pixels | ColorChoices, showOption()), labelOption(), rulerOption(), panelOption(),
+         shownIn(Pixels | ColorChoices,
+                 number("opacity", "O", "of the surface, seen from the front", "1", draw, 0.01, 1.0,
+                        "a number from 0.01 to 1", MOLSURF_OF(picture.opacity))),
          shownIn(Pixels, flag("all-walls", "--opacity shows what is behind the nearest wall, too",
                               draw, MOLSURF_OF(picture.allWalls))),
          shownIn(Pixels, number("clip", "D",

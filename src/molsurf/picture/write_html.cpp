@@ -148,7 +148,8 @@ Json modeOf(const Legend& legend, const Mesh& mesh, const std::string& level, Ar
         return {};
     }
     for (const LegendEntry& entry : legend.entries)
-        mode["entries"].push_back(Json{{"name", entry.name}, {"color", colorJson(entry.color)}});
+        mode["entries"].push_back(
+            Json{{"name", entry.name}, {"color", colorJson(entry.color)}, {"seen", entry.seen}});
     return mode;
 }
 
@@ -259,6 +260,19 @@ Json cutOf(const HtmlPage& page, const openvdb::Vec3d& origin, Arrays& arrays)
     return {{"step", step}, {"radius_step", radiusStep}, {"low", {low[0], low[1], low[2]}}};
 }
 
+/// Packs the bodies inside, with their legend.
+Json bodiesOf(const Mesh& bodies, const openvdb::Vec3d& origin, Arrays& arrays)
+{
+    Json out = levelOf(bodies, origin, "_bodies", arrays);
+    arrays.add("color_bodies", bodies.colors.size(), 3, 1, [&](std::size_t i, int c) {
+        return std::uint32_t(bodies.colors[i][std::size_t(c)]);
+    });
+    for (const PartRange& part : partRanges(bodies, ""))
+        out["entries"].push_back(
+            Json{{"name", part.name}, {"color", colorJson(bodies.colors[part.firstVertex])}});
+    return out;
+}
+
 /// @param[in] origin  of the page [Å]
 Json headerOf(const Mesh& mesh, const HtmlPage& page, const openvdb::Vec3d& origin, Arrays& arrays)
 {
@@ -292,6 +306,8 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, const openvdb::Vec3d& orig
     Json names = page.names && !page.ballOf.empty() ? namesOf(page, arrays) : Json();
     const bool colored = !page.balls.empty() && page.instances.empty();
     Json cut = colored ? cutOf(page, origin, arrays) : Json();
+    const bool has = page.bodies && !page.bodies->triangles.empty();
+    Json bodies = has ? bodiesOf(*page.bodies, origin, arrays) : Json();
     return {{"title", page.title},
             {"name", page.name},
             {"about", page.about},
@@ -300,7 +316,9 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, const openvdb::Vec3d& orig
             {"axes", axes},
             {"modes", modes},
             {"names", names},
-            {"cut", cut}};
+            {"cut", cut},
+            {"bodies", bodies},
+            {"opacity", page.opacity}};
 }
 
 /// Gives layers the scales of values that the first one has.

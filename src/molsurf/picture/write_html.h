@@ -40,6 +40,8 @@ struct HtmlPage {
     /// cut is grey.
     std::vector<Ball> balls{};
     std::vector<std::vector<Color>> cutColors{};
+    const Mesh* bodies = nullptr; ///< opaque parts inside, with names and colours; null: none
+    double opacity = 1.0;         ///< of the surface at first
     /// Of a further layer: whether it is where the first one is. Else its middle comes to that
     /// one's.
     bool inPlace = false;

@@ -165,8 +165,8 @@ function paint({ level, geometry, source }, mode, arrays) {
 
 const css = ([r, g, b]) => `rgb(${r},${g},${b})`;
 
-// modes: what layers show alike
-function showLegend(modes) {
+// modes: what layers show alike; bodies: entries of what is inside
+function showLegend(modes, bodies) {
   const [mode] = modes;
   const legend = byId('legend');
   legend.replaceChildren();
@@ -189,7 +189,8 @@ function showLegend(modes) {
   const rows = new Map(); // each name and colour once
   for (const { entries, missing } of modes)
     for (const entry of entries ?? (missing ? [{ name: 'no value', color: missing }] : []))
-      rows.set([entry.name, ...entry.color].join(), entry);
+      if (entry.seen !== false) rows.set([entry.name, ...entry.color].join(), entry);
+  for (const entry of bodies) rows.set([entry.name, ...entry.color].join(), entry);
   for (const entry of rows.values()) {
     const row = document.createElement('div');
     row.className = 'entry';
@@ -600,6 +601,19 @@ class Layer {
       new Owners(header.names, arrays, this.copies.parts.map(({ shapes }) => shapes[0]));
     this.cutColors = new CutColors(header, arrays, this.copies.sphere);
     if (header.copies.length <= 1) this.copies.fill(this.cutColors.material);
+    if (header.bodies) this.addBodies();
+  }
+
+  // What is seen through the surface.
+  addBodies() {
+    const { bodies } = this.header;
+    const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.55 });
+    const mode = { kind: 'colors', array: 'color' };
+    for (const part of bodies.parts.keys()) {
+      const shape = unpackShape(bodies, part, this.arrays);
+      paint(shape, mode, this.arrays);
+      this.group.add(new Mesh(shape.geometry, material));
+    }
   }
 
   // The colours of an id; a layer that has none of them is plain.
@@ -798,7 +812,7 @@ function start(surfaces) {
   const legend = () => { // those that are plain for want of values add nothing
     const modes = shown.map((layer) => layer.modeOf(mode));
     const own = modes.filter(({ id }) => id === mode);
-    showLegend(own.length > 0 ? own : modes);
+    showLegend(own.length > 0 ? own : modes, shown.flatMap((layer) => layer.header.bodies?.entries ?? []));
   };
   const setMode = (id) => {
     mode = id;
@@ -1056,6 +1070,8 @@ function start(surfaces) {
   setSize();
   reset();
   setMode(ids[choice.selectedIndex]);
+  byId('opacity').value = header.opacity;
+  setOpacity();
   measure();
   renderer.setAnimationLoop(step);
 }
