@@ -7,6 +7,7 @@
 #include "identity.h"
 #include "input_files.h"
 #include "outputs.h"
+#include "pocket_files.h"
 #include "sidecar.h"
 #include "stop.h"
 #include "terminal.h"
@@ -246,7 +247,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     call.options.closedForm = many || call.writes(Numbers | Areas);
     MolecularSurface result;
     try {
-        result = makePrototypes(balls, call.options, &terminal);
+        result = makePrototypes(balls, withBodies(call), &terminal);
     } catch (const Cancelled&) {
         terminal.failIfOverdue(" [hint: a larger --voxel or --max-hours, or fewer --max-steps]");
         throw;
@@ -274,9 +275,13 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
     for (const auto& grid : result.grids()) grid->setCreator(creator);
 
+    const auto bodies = std::make_shared<Mesh>(takeBodies(call, terminal, result));
+    if (call.writes(Numbered)) numberOutputs(result.report.pockets->list.size(), call);
+    if (call.showsPockets) showBodies(*bodies, call.picture);
     if (call.center) centerMesh(call, result);
-    if (!call.panels.empty()) call.panelSurfaces = makePanels(call, balls, result.mesh, terminal);
+    if (!call.panels.empty()) makePanels(call, balls, result.mesh, terminal);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
+    shown.bodies = bodies;
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
     if (!call.writes(Grids | Stage | Volume | Solver)) dropGrids(result);
     writeAll(call, balls, result, shown, terminal, start, companions);
@@ -396,7 +401,9 @@ int build(const Call& asked, Clock::time_point start)
         return *status;
     }
     if (call.options.grid && (call.memory > 0 || call.dryRun)) return buildInBricks(call, start);
-    return endOf(buildSurface(call, start), moreSteps(call));
+    call.panelSurfaces = std::make_shared<std::vector<PanelSurface>>();
+    const int status = endOf(buildSurface(call, start), moreSteps(call));
+    return std::max(status, endOf(*call.panelSurfaces));
 }
 
 std::string moreSteps(const Call& call)

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "draw_result.h"
 
+#include "bricks.h"
+#include "exit_status.h"
 #include "outputs.h"
 #include "verbs.h"
 
 #include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/picture/atom_model.h"
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/panels.h"
 #include "molsurf/picture/view.h"
+#include "molsurf/picture/write_html.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
@@ -54,6 +59,15 @@ std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, co
                        copy.rotation, copy.translation, colors.empty() ? plain : colors[i]});
     }
     return out;
+}
+
+void showBodies(const Mesh& bodies, DrawOptions& picture)
+{
+    if (bodies.triangles.empty()) return;
+    const auto model =
+        picture.model ? std::make_shared<AtomModel>(*picture.model) : std::make_shared<AtomModel>();
+    addBodies(bodies, *model);
+    picture.model = model;
 }
 
 DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
@@ -114,52 +128,101 @@ Call panelCall(Call call)
     return call;
 }
 
-PanelSurface makePanel(const Call& call, const std::string& file,
-                       const std::optional<std::array<double, 2>>& range, Terminal& terminal)
+/// What the panel shows, without its surface.
+PanelSurface readPanel(const Call& call, const Panel& what, const BallSet& first,
+                       Terminal& terminal)
 {
-    PanelSurface panel;
-    panel.name = inputStem(file);
-    const Call other = panelCall(call);
-    panel.picture = call.picture;
+    PanelSurface panel{what.kind ? nameOf(*what.kind) : inputStem(what.file),
+                       first,
+                       {},
+                       {},
+                       call.picture,
+                       bool(what.kind),
+                       ""};
+    if (what.kind) return panel;
     panel.picture.model.reset();
     panel.picture.notes.clear();
-    auto [balls, description] = readBalls(file, other, terminal, &panel.picture, true);
+    auto [balls, description] =
+        readBalls(what.file, panelCall(call), terminal, &panel.picture, true);
     terminal.erase();
-    if (!call.quiet) say(description);
-    takeRange(range, balls);
-    checkCost(balls, other.options, limitsOf(call), terminal);
-    MolecularSurface result = makePrototypes(balls, other.options, &terminal);
+    if (!call.quiet) {
+        say(description);
+        for (const std::string& warning : balls.warnings)
+            say("warning: " + what.file + ": " + warning);
+    }
+    panel.atoms = std::move(balls);
+    return panel;
+}
+
+PanelSurface makePanel(const Call& call, const Panel& what, const BallSet& first,
+                       const std::optional<std::array<double, 2>>& range, Terminal& terminal)
+{
+    PanelSurface panel = readPanel(call, what, first, terminal);
+    Call other = panelCall(call);
+    other.options = panelOptions(other.options, what);
+    takeRange(range, panel.atoms);
+    checkCost(panel.atoms, other.options, limitsOf(call), terminal);
+    MolecularSurface result = makePrototypes(panel.atoms, other.options, &terminal);
     terminal.erase();
     const auto& flow = result.report.evolution;
-    if (flow && !flow->converged) result.report.warnings.push_back("not converged");
-    if (!call.quiet) {
-        for (const std::string& warning : balls.warnings) say("warning: " + file + ": " + warning);
+    if (flow && !flow->converged)
+        panel.unrest = panel.name + ": " + unrestText(*flow, other.options.voxel, moreSteps(call));
+    if (!call.quiet)
         for (const std::string& warning : result.report.warnings)
-            say("warning: " + file + ": " + warning);
-    }
-    panel.borders = bordersOf(call, balls, result.mesh, terminal);
+            say("warning: " + panel.name + ": " + warning);
+    panel.shown = shownMeshes(other, panel.atoms, result.mesh, terminal);
+    panel.shown.about = aboutPage(result.report.surface.kind, other.options.voxel);
     panel.mesh = std::move(result.mesh);
-    panel.atoms = std::move(balls);
     return panel;
 }
 
 } // namespace
 
-std::shared_ptr<const std::vector<PanelSurface>> makePanels(const Call& call, const BallSet& first,
-                                                            const Mesh& mesh, Terminal& terminal)
+SurfaceOptions panelOptions(SurfaceOptions options, const Panel& panel)
+{
+    if (!panel.kind) return options;
+    options.kind = *panel.kind;
+    if (isUnion(options.kind)) options.inset = 0.0; // --match is for the others
+    return options;
+}
+
+std::string firstName(const Call& call)
+{
+    const auto any = [&](const auto& such) {
+        return std::any_of(call.panels.begin(), call.panels.end(), such);
+    };
+    std::vector<std::string> words;
+    if (any([](const Panel& panel) { return !panel.file.empty(); }))
+        words.push_back(inputStem(call.input));
+    if (any([](const Panel& panel) { return bool(panel.kind); }))
+        words.push_back(nameOf(call.options.kind));
+    return joinWords(words, ", ");
+}
+
+void makePanels(const Call& call, const BallSet& first, const Mesh& mesh, Terminal& terminal)
 {
     const auto range = rangeOf(call, first, mesh, terminal);
-    auto all = std::make_shared<std::vector<PanelSurface>>();
     for (const Panel& panel : call.panels) {
-        if (panel.file.empty()) continue;
+        if (!panel.hasSurface()) continue;
+        const std::string name = panel.kind ? nameOf(*panel.kind) : panel.file;
         try {
-            all->push_back(makePanel(call, panel.file, range, terminal));
+            call.panelSurfaces->push_back(makePanel(call, panel, first, range, terminal));
         } catch (const Error& error) {
-            if (std::string(error.what()).find(panel.file) != std::string::npos) throw;
-            throw Error(error, panel.file + ": " + error.what());
+            if (std::string(error.what()).find(name) != std::string::npos) throw;
+            throw Error(error, name + ": " + error.what());
         }
     }
-    return all;
+}
+
+int endOf(const std::vector<PanelSurface>& panels)
+{
+    bool rest = true;
+    for (const PanelSurface& panel : panels) {
+        if (panel.unrest.empty()) continue;
+        say(panel.unrest);
+        rest = false;
+    }
+    return rest ? 0 : notConvergedStatus;
 }
 
 namespace
@@ -195,17 +258,18 @@ std::vector<Shot> shotsOf(const Drawn& d, double turn, bool quick)
     std::vector<Shot> shots = {shotOf(d, turn, quick)};
     if (d.call.panels.empty() || !d.call.panelSurfaces) return shots;
     auto surface = d.call.panelSurfaces->begin();
-    if (surface != d.call.panelSurfaces->end()) shots[0].name = inputStem(d.call.input);
+    shots[0].name = firstName(d.call);
     for (const Panel& panel : d.call.panels) {
-        if (panel.file.empty()) {
+        if (!panel.hasSurface()) {
             shots.push_back(shots[0]);
             lookFrom(panel.toEye, shots.back().options);
             continue;
         }
         Call call = d.call;
         call.picture = surface->picture;
-        shots.push_back(shotOf(
-            {call, surface->atoms, surface->mesh, surface->borders, {}, d.progress}, turn, quick));
+        shots.push_back(
+            shotOf({call, surface->atoms, surface->mesh, surface->shown.borders, {}, d.progress},
+                   turn, quick));
         shots.back().name = surface->name;
         ++surface;
     }
@@ -223,7 +287,7 @@ void shareCamera(const Call& call, std::vector<Shot>& shots)
     PictureFrame largest{openvdb::Vec3d(0.0), 0.0, 0.0};
     for (std::size_t n = 0; n < shots.size(); ++n) {
         DrawOptions& options = shots[n].options;
-        if (n == 0 || !call.panels[n - 1].file.empty()) {
+        if (n == 0 || call.panels[n - 1].hasSurface()) {
             options.upright = openvdb::Vec3d(0.0);
             options.up = axes[1];
             options.toEye = axes[2];

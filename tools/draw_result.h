@@ -6,6 +6,7 @@
 
 #include "cli/call.h"
 #include "terminal.h"
+#include "write_result.h"
 
 #include "molsurf/color/crisp_borders.h"
 #include "molsurf/color/legend.h"
@@ -20,14 +21,22 @@
 namespace molsurf::tool
 {
 
-/// A structure of --panel, with its surface.
+/// A structure or kind of --panel, with its surface.
 struct PanelSurface {
     std::string name;
     BallSet atoms;
     Mesh mesh;
-    std::shared_ptr<const ColorOwners> borders; ///< between its colours; null: they have none
-    DrawOptions picture;                        ///< with the atoms that it shows
+    ShownMeshes shown;
+    DrawOptions picture; ///< with the atoms that it shows
+    bool inPlace;        ///< whether it is of the first structure
+    std::string unrest;  ///< that it is not at rest; empty: it is
 };
+
+/// What decides the surface of a panel, whose kind may be another one.
+SurfaceOptions panelOptions(SurfaceOptions options, const Panel& panel);
+
+/// The name of the first surface among its panels.
+std::string firstName(const Call& call);
 
 /// The point that is 0 in meshes.
 openvdb::Vec3d originOf(const Call& call);
@@ -44,6 +53,9 @@ std::shared_ptr<const ColorOwners> bordersOf(const Call& call, const BallSet& at
 std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
                                       bool colored, const Progress& progress);
 
+/// Shows bodies among the atoms of a picture.
+void showBodies(const Mesh& bodies, DrawOptions& picture);
+
 /// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
 /// for every voxel.
 DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
@@ -56,10 +68,12 @@ std::optional<std::array<double, 2>> rangeOf(const Call& call, const BallSet& at
 /// Gives atoms the range of others.
 void takeRange(const std::optional<std::array<double, 2>>& range, BallSet& atoms);
 
-/// Makes the surfaces of --panel, in their order, with the colours of the first structure's values.
-/// @throws Error as the first structure does, with the name of the file
-std::shared_ptr<const std::vector<PanelSurface>> makePanels(const Call& call, const BallSet& first,
-                                                            const Mesh& mesh, Terminal& terminal);
+/// Fills Call::panelSurfaces, in their order, with the colours of the first structure's values.
+/// @throws Error as the first structure does, with the name of the panel
+void makePanels(const Call& call, const BallSet& first, const Mesh& mesh, Terminal& terminal);
+
+/// The exit status for panels; says which of them are not at rest.
+int endOf(const std::vector<PanelSurface>& panels);
 
 /// Source of a picture.
 struct Drawn {

@@ -5,6 +5,7 @@
 #include "film.h"
 #include "identity.h"
 #include "input_files.h"
+#include "pocket_files.h"
 #include "sidecar.h"
 #include "stop.h"
 
@@ -148,8 +149,10 @@ std::string inputStem(const std::string& input)
 
 void checkOutput(const Call& call, const Output& output)
 {
-    InputFiles(call).refuse(output.path);
-    checkWritable(output.path, mayReplace(call, output));
+    const bool first = output.holds(Numbered) && output.pocket == 0; // their number is not known
+    const std::string path = first ? numberedPath(output, 1) : output.path;
+    InputFiles(call).refuse(path);
+    checkWritable(path, mayReplace(call, output));
     if (output.format == findFormat("html")) needViewer();
     if (output.holds(Moving)) checkFilm(output.path);
 }

@@ -15,6 +15,7 @@
 #include "molsurf/color/legend.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
+#include "molsurf/io/part_ranges.h"
 #include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
@@ -273,24 +274,46 @@ void writeGlb(const Writing& w, OutputFile& file)
              file);
 }
 
+/// A surface with what a page shows of it.
+HtmlPage pageOf(const Drawn& d, const ShownMeshes& shown)
+{
+    const DrawOptions view = pictureOf(d.call, d.atoms, d.mesh, true, d.progress);
+    HtmlPage page;
+    page.title = displayName(inputStem(d.call.input));
+    page.about = shown.about;
+    page.legends = d.legend ? std::vector{*d.legend}
+                            : offeredLegends(d.call.options.color, d.atoms, d.mesh, d.progress);
+    page.plain = d.call.picture.plain;
+    page.axes = viewAxes(d.mesh, view);
+    page.instances = view.instances;
+    page.copiesFirst = d.call.colorsCopies();
+    if (d.atoms.names)
+        nameAtoms(*d.atoms.names, placedBalls(d.call, d.atoms), d.mesh, d.progress, page);
+    colorCut(d.atoms, placedBalls(d.call, d.atoms), d.progress, page);
+    return page;
+}
+
 void writePage(const Writing& w, OutputFile& file)
 {
-    const DrawOptions view = pictureOf(w.call, w.atoms, w.mesh, true, w.progress);
-    HtmlPage page{
-        displayName(inputStem(w.call.input)),
-        w.shown.about.empty() ? aboutPage(w.result.report.surface.kind, w.call.options.voxel)
-                              : w.shown.about,
-        w.shown.legend ? std::vector{*w.shown.legend}
-                       : offeredLegends(w.call.options.color, w.atoms, w.mesh, w.progress),
-        w.call.picture.plain,
-        viewAxes(w.mesh, view),
-        view.instances,
-        w.call.colorsCopies(),
-        w.coarser};
-    if (w.atoms.names)
-        nameAtoms(*w.atoms.names, placedBalls(w.call, w.atoms), w.mesh, w.progress, page);
-    colorCut(w.atoms, placedBalls(w.call, w.atoms), w.progress, page);
-    writeHtml(w.mesh, page, file);
+    std::vector<HtmlLayer> layers = {{w.mesh, pageOf(drawnOf(w), w.shown)}};
+    layers[0].page.name = firstName(w.call);
+    layers[0].page.coarser = w.coarser;
+    layers[0].page.opacity = w.call.picture.opacity;
+    if (w.call.showsPockets) layers[0].page.bodies = w.shown.bodies.get();
+    if (w.shown.about.empty())
+        layers[0].page.about = aboutPage(w.result.report.surface.kind, w.call.options.voxel);
+    const std::vector<PanelSurface> none;
+    for (const PanelSurface& panel : w.call.panelSurfaces ? *w.call.panelSurfaces : none) {
+        const Mesh& mesh = panel.shown.crisp ? *panel.shown.crisp : panel.mesh;
+        HtmlPage page =
+            pageOf({w.call, panel.atoms, mesh, panel.shown.borders, {}, w.progress}, panel.shown);
+        page.name = panel.name;
+        page.inPlace = panel.inPlace;
+        if (panel.inPlace) page.bodies = layers[0].page.bodies;
+        if (!panel.inPlace) layers[0].page.title += ", " + displayName(panel.name);
+        layers.push_back({mesh, std::move(page)});
+    }
+    writeHtml(std::move(layers), file);
 }
 
 void writeMesh(const Writing& w, OutputFile& file)
@@ -338,6 +361,32 @@ void writeTube(const Writing& w, OutputFile& file)
             format.write(tubeOf(w), {stemOf(w.output.path), printUnit(w.call)}, file);
 }
 
+/// The body of one pocket where the mesh lies.
+Mesh bodyOf(const Writing& w)
+{
+    const Mesh& all = *w.shown.bodies;
+    const PartRange part = partRanges(all, "").at(w.output.pocket - 1);
+    Mesh body;
+    for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
+        body.positions.emplace_back(openvdb::Vec3d(all.positions[v]) - originOf(w.call));
+        body.normals.push_back(all.normals[v]);
+        body.colors.push_back(all.colors[v]);
+    }
+    const auto first = std::uint32_t(part.firstVertex);
+    for (std::size_t t = part.firstTriangle; t < part.triangleEnd; ++t) {
+        const auto& corners = all.triangles[t];
+        body.triangles.push_back({corners[0] - first, corners[1] - first, corners[2] - first});
+    }
+    return body;
+}
+
+void writeBody(const Writing& w, OutputFile& file)
+{
+    for (const MeshFormat& format : meshFormats())
+        if ("pockets." + std::string(format.word) == w.output.format->word)
+            format.write(bodyOf(w), {stemOf(w.output.path), printUnit(w.call)}, file);
+}
+
 template<int axis>
 void writeDielectric(const Writing& w, OutputFile& file)
 {
@@ -381,6 +430,8 @@ std::vector<Format> areaFormats()
 {
     constexpr const char* ofAreas = "table of areas";
     constexpr const char* ofPore = ""; // --pore says it
+    constexpr unsigned ofPocket = Areas | Numbered;
+    constexpr const char* perPocket = ""; // --pockets says it
     constexpr const char* withAreas = "areas as B factors";
     constexpr unsigned built = Build | Batch;
     return {
@@ -405,6 +456,18 @@ std::vector<Format> areaFormats()
              options.name = stemOf(w.output.path);
              options.scale = w.call.scene.scale;
              writeGlb(tubeOf(w), options, file);
+         }},
+        {"pockets.ply", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.obj", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.stl", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.off", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.vtk", Build, ofPocket, perPocket, "pockets", writeBody},
+        {"pockets.glb", Build, ofPocket, perPocket, "pockets",
+         [](const Writing& w, OutputFile& file) {
+             GlbOptions options;
+             options.name = stemOf(w.output.path);
+             options.scale = w.call.scene.scale;
+             writeGlb(bodyOf(w), options, file);
          }},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},

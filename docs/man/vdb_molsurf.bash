@@ -8,10 +8,10 @@ _vdb_molsurf()
         help|build|batch|compare|convert|bricks|info) verb=${COMP_WORDS[1]} ;;
     esac
     case $verb:$before in
-        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png legend.svg view pockets.vdb atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv pore.csv forces.csv pore.svg pore.png pore.ply pore.obj pore.glb pdb cif residues.pdb residues.cif" ;;
+        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png legend.svg view pockets.vdb atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv pore.csv forces.csv pore.svg pore.png pore.ply pore.obj pore.glb pockets.ply pockets.obj pockets.stl pockets.off pockets.vtk pockets.glb pdb cif residues.pdb residues.cif" ;;
         "build":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "build":--walls) words="all outer cavities" ;;
-        "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
+        "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v" ;;
         "build":--match) words="none ses" ;;
         "build":--coarse) words="atom residue" ;;
         "build":--group-by) words="chain entity class copy" ;;
@@ -25,13 +25,13 @@ _vdb_molsurf()
         "build":--view) words="auto" ;;
         "build":--background) words="transparent" ;;
         "build":--style) words="soft glossy outline flat" ;;
-        "build":--show) words="sticks balls orders spheres tube" ;;
+        "build":--show) words="sticks balls orders spheres tube pockets" ;;
         "build":--legend) words="auto on off" ;;
         "build":--regularizer) words="gradient area" ;;
         "build":--flow) words="rest newton paper" ;;
         "build":--require) words="watertight manifold components= cavities= genus= min-angle=" ;;
         "batch":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
-        "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
+        "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v" ;;
         "batch":--match) words="none ses" ;;
         "batch":--coarse) words="atom residue" ;;
         "batch":--group-by) words="chain entity class copy" ;;
@@ -45,7 +45,7 @@ _vdb_molsurf()
         "batch":--view) words="auto" ;;
         "batch":--background) words="transparent" ;;
         "batch":--style) words="soft glossy outline flat" ;;
-        "batch":--show) words="sticks balls orders spheres tube" ;;
+        "batch":--show) words="sticks balls orders spheres tube pockets" ;;
         "batch":--legend) words="auto on off" ;;
         "batch":--regularizer) words="gradient area" ;;
         "batch":--flow) words="rest newton paper" ;;
@@ -62,7 +62,7 @@ _vdb_molsurf()
         "compare":--regularizer) words="gradient area" ;;
         "compare":--flow) words="rest newton paper" ;;
         "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx cxc pml html json png legend.svg view" ;;
-        "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
+        "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v" ;;
         "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature" ;;
         "convert":--view) words="auto" ;;
@@ -70,7 +70,7 @@ _vdb_molsurf()
         "convert":--style) words="soft glossy outline flat" ;;
         "convert":--legend) words="auto on off" ;;
         "bricks plan":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
-        "bricks plan":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth v" ;;
+        "bricks plan":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v" ;;
         "bricks plan":--match) words="none ses" ;;
         "bricks plan":--coarse) words="atom residue" ;;
         "bricks plan":--group-by) words="chain entity class copy" ;;

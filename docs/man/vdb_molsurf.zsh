@@ -7,10 +7,10 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'pockets.vdb' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'pockets.vdb' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
-    "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
+    "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
     "build:--match") compadd -- 'none' 'ses'; return ;;
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
     "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -24,13 +24,13 @@ case "$verb:$words[CURRENT-1]" in
     "build:--view") compadd -- 'auto'; return ;;
     "build:--background") compadd -- 'transparent'; return ;;
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
-    "build:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube'; return ;;
+    "build:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube' 'pockets'; return ;;
     "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
-    "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
+    "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
     "batch:--match") compadd -- 'none' 'ses'; return ;;
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
     "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -44,7 +44,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--view") compadd -- 'auto'; return ;;
     "batch:--background") compadd -- 'transparent'; return ;;
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
-    "batch:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube'; return ;;
+    "batch:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube' 'pockets'; return ;;
     "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "batch:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
@@ -61,7 +61,7 @@ case "$verb:$words[CURRENT-1]" in
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
-    "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
+    "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
     "convert:--view") compadd -- 'auto'; return ;;
@@ -69,7 +69,7 @@ case "$verb:$words[CURRENT-1]" in
     "convert:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
     "convert:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "bricks plan:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
-    "bricks plan:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'v'; return ;;
+    "bricks plan:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
     "bricks plan:--match") compadd -- 'none' 'ses'; return ;;
     "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -144,7 +144,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--crisp:mesh files\: triangles are cut where colours meet'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
-      '--pockets:pockets of the surface, for the report and .pockets.csv'
+      '--pockets:pockets of the surface, for the report, .pockets.csv, and a'
       '--pocket-at:only the pocket at these atoms of the file, used or not\:'
       '--probe-in:radius of the probe that gets into pockets [Å], 0.5 to 10'
       '--probe-out:radius of the probe that stays out of them [Å], above'
@@ -250,7 +250,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--outward:potentials are taken A outside of the surface [Å]'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
-      '--pockets:pockets of the surface, for the report and .pockets.csv'
+      '--pockets:pockets of the surface, for the report, .pockets.csv, and a'
       '--pocket-at:only the pocket at these atoms of the file, used or not\:'
       '--probe-in:radius of the probe that gets into pockets [Å], 0.5 to 10'
       '--probe-out:radius of the probe that stays out of them [Å], above'

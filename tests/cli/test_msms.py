@@ -2,6 +2,7 @@
 """vdb_molsurf_msms, the stand-in for MSMS: its files, read as MSMS's manual describes them, hold the
 surface in closed form, and callers of MSMS run with it unchanged."""
 
+import csv
 import gzip
 import json
 import math
@@ -382,6 +383,24 @@ class Molecules(Msms):
         self.check(0, "named.txt", "--voxel", 1, "--select", "(ALA)", "-o", "a.json")
         report = json.loads((self.folder / "a.json").read_text())
         self.assertEqual(report["atoms"], 25)
+
+    def test_depths_of_residues_are_those_of_the_table(self):
+        """Mean distances from the vertices, as Biopython takes them, of molecules whose voids are apart."""
+        for path in (DATA / "bpti.pdb.gz", DATA / "1ubq.pdb", DATA / "1a8o.pdb.gz"):
+            self.write("m.xyzrn", xyzrn(path))
+            self.msms("-if", "m.xyzrn", "-of", "a")
+            self.check(0, "m.xyzrn", "--surface", "ses", "--probe", "1.5", "-o", "m.atoms.csv", "--force")
+            lines = (self.folder / "m.atoms.csv").read_text().splitlines()
+            rows = list(csv.DictReader(line for line in lines if line[0] != "#"))
+            vertices = self.surface().positions
+            places = [tuple(map(float, line.split()[:3])) for line in (self.folder / "m.xyzrn").read_text().splitlines()]
+            residues = {}
+            for row, place in zip(rows, places, strict=True):
+                over = min(math.dist(place, v) for v in vertices) - float(row["depth_A"])
+                residues.setdefault((row["chain"], row["number"], row["residue"]), []).append(over)
+            means = [sum(over) / len(over) for over in residues.values()]
+            self.assertLess(max(map(abs, means)), 0.2, path)
+            self.assertGreater(sum(means), 0)
 
     @needs("biopython")
     def test_residue_depth_of_biopython(self):

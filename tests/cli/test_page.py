@@ -217,6 +217,117 @@ class Page(ToolTest):
             self.assertIn("reset view", browser.evaluate("document.getElementById('keys').textContent"))
             self.assertEqual(browser.console, [])
 
+    def layers(self, page):
+        """The headers of a page's surfaces, and the arrays of each."""
+        header = json.loads(element(page, "header"))
+        data = zlib.decompress(base64.b64decode(element(page, "data")))
+        headers = [header, *header["others"]]
+        return headers, [{t["name"]: unpacked(data, t) for t in header["arrays"] if t["layer"] == n}
+                         for n in range(len(headers))]
+
+    def test_kinds_are_layers(self):
+        """Each is the mesh that a run of its own makes, where that is, with the scales of the first."""
+        words = [CRAMBIN, "--voxel", "0.7", "--color", "mean-curvature"]
+        (first, other), arrays = self.layers(self.page(*words, "--panel", "SES"))
+        self.assertEqual([first["name"], other["name"]], ["variational", "ses"])
+        self.assertIn("Surface ses, voxels of 0.7", other["about"])
+        middle = first["levels"][0]["middle"]
+        self.check(0, *words, "--surface", "ses", "-o", "s.ply", "-o", "v.ply")
+        self.check(0, *words, "-o", "v.ply", "--force")
+        boxes = {}
+        for name in ("s", "v"):
+            names, vertices, triangles = read_ply((self.folder / f"{name}.ply").read_bytes())
+            boxes[name] = [(min(v[i] for v in vertices) + max(v[i] for v in vertices)) / 2 for i in range(3)]
+            if name == "s":
+                self.assertEqual(3 * len(triangles), len(arrays[1]["index"]))
+        for i in range(3):
+            self.assertAlmostEqual(other["levels"][0]["middle"][i] - middle[i], boxes["s"][i] - boxes["v"][i], delta=1e-3)
+        self.assertGreater(max(map(abs, other["levels"][0]["middle"])), 0.01)
+        scales = [[(m["low"], m["high"]) for m in h["modes"] if m["id"] == "mean-curvature"] for h in (first, other)]
+        self.assertEqual(scales[0], scales[1])
+        self.assertEqual(len(other["names"]["residues"]), len({tuple(r) for r in other["names"]["residues"]}))
+
+    def test_structures_are_layers(self):
+        """Each about its own middle; chains keep the colours that they have alone."""
+        (first, other), _ = self.layers(self.page(CRAMBIN, *FAST, "--panel", DATA / "1ubq.pdb", "--color", "chain"))
+        self.assertEqual([first["title"], first["name"], other["name"]], ["1crn, 1ubq", "1crn", "1ubq"])
+        self.assertLess(max(map(abs, other["levels"][0]["middle"])), 1e-6)
+        self.assertEqual(self.layers(self.page(CRAMBIN, *FAST, "--panel", "0,1,0"))[0][0]["others"], [])
+
+    @needs("chromium")
+    def test_surfaces_side_by_side(self):
+        self.page(CRAMBIN, "--voxel", "0.7", "--panel", "ses", "--panel", DATA / "1ubq.pdb", "--color", "chain")
+        areas = {}
+        for kind in ("variational", "ses"):
+            self.check(0, CRAMBIN, "--voxel", "0.7", "--surface", kind, "-o", "r.json", "--force")
+            areas[kind] = json.loads((self.folder / "r.json").read_text())["surface"]["area"]
+        self.assertGreater(abs(areas["ses"] / areas["variational"] - 1), 0.05)
+        text = lambda name: f"document.getElementById('{name}').textContent"
+        choose = lambda n: (f"{{ delete document.body.dataset.rests; const c = document.getElementById('layer'); c.selectedIndex = {n}; "
+                            "c.dispatchEvent(new Event('change')); } 0")
+        with self.opened((1200, 420)) as browser:
+            self.ready(browser)
+            captions = browser.evaluate("[...document.getElementById('captions').children].map((c) => c.textContent)")
+            self.assertEqual(captions, ["1crn, variational", "ses", "1ubq"])
+
+            def columns():
+                """Which columns of the stage show something below the captions."""
+                (left, top, right, bottom), rows = self.shown(browser)
+                return int(left), int(right), {x for y in range(int(top) + 40, int(bottom)) for x in rows[y]}
+            left, right, seen = columns()
+            third = (right - left) / 3
+            spans = [[x for x in seen if left + n * third <= x < left + (n + 1) * third] for n in range(3)]
+            for n, span in enumerate(spans):
+                self.assertGreater(len(span), 0.4 * third)
+                self.assertGreater(min(span), left + n * third + 1)
+                self.assertLess(max(span), left + (n + 1) * third - 2)
+            self.assertAlmostEqual(min(spans[0]) + third, min(spans[1]), delta=8)  # one camera
+            # One click chooses the residue of both surfaces.
+            x, y = left + int(1.5 * third), 200
+            for kind in ("mousePressed", "mouseReleased"):
+                browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+            chosen = browser.evaluate(text("chosen"))
+            self.assertRegex(chosen, r"^A [A-Z]{3} \d+, 1crn, variational [\d.]+ Å², ses [\d.]+ Å²")
+            browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=x + 1, y=y)
+            browser.wait("!document.getElementById('tip').hidden")
+            tip = browser.evaluate(text("tip"))
+            self.assertIn(re.search(r"ses ([\d.]+) Å²", chosen)[1], tip)
+            browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=2, y=2)
+            browser.wait("document.getElementById('tip').hidden")
+            # One by one, by the list and by a key; the list of residues is that of the surface that is shown.
+            for n, kind in ((1, "variational"), (2, "ses")):
+                browser.evaluate(choose(n))
+                self.ready(browser)
+                listed = sum(browser.evaluate("[...document.getElementById('residues').options]"
+                                              ".map((o) => Number(o.text.split(/ +/).pop()))"))
+                self.assertLess(abs(listed / areas[kind] - 1), 0.02, kind)
+                self.assertIn(f"Surface {kind}", browser.evaluate(text("about")))
+                left, right, seen = columns()
+                self.assertAlmostEqual((min(seen) + max(seen)) / 2, (left + right) / 2, delta=20)
+            browser.evaluate("document.getElementById('view').dispatchEvent(new KeyboardEvent('keydown', "
+                             "{key: 's', bubbles: true})); 0")
+            self.assertEqual(browser.evaluate("document.getElementById('layer').selectedIndex"), 3)
+            # A cut and a glass of all.
+            browser.evaluate(choose(0))
+            for name, value in (("clip", 0.5), ("clip", 0), ("opacity", 0.4)):
+                browser.evaluate("delete document.body.dataset.rests")
+                browser.evaluate(f"{{ {slid(name, value)} }} 0")
+                self.ready(browser)
+                left, right, seen = columns()
+                self.assertGreater(min(sum(left + n * third <= x < left + (n + 1) * third for x in seen) for n in range(3)),
+                                   0.3 * third, (name, value))
+            self.assertEqual(browser.console, [])
+        # In a square window they have two rows, and nothing stays where there is none.
+        with self.opened((924, 700)) as browser:
+            for n in (1, 0):
+                self.ready(browser)
+                browser.evaluate(choose(n))
+            self.ready(browser)
+            (left, top, right, bottom), rows = self.shown(browser)
+            fourth = [x for y in range(int(top + bottom) // 2 + 40, int(bottom)) for x in rows[y] if x > (left + right) / 2]
+            self.assertEqual(fourth, [])
+            self.assertTrue(rows[int(0.75 * bottom)])
+
     @needs("chromium")
     def test_the_panel_covers_nothing(self):
         self.page(*DIMER, *FAST, "--color", "chain")

@@ -91,6 +91,33 @@ class Panels(ToolTest):
         self.check(0, DATA / "1d3z.pdb.gz", "--model", 2, "--surface", "vdw", "--voxel", 1, "--interfaces", "--group-by", "chain", "--pockets",
                    "--fields", "spline,pocket_depth", "-o", "a.vdb", *more, says="1crn.pdb: PDB")
 
+    def test_kinds_of_surfaces(self):
+        """The same atoms with another surface, in the same place and scale; options of either are no mistake."""
+        self.rod("a.pdb", 16)
+        words = ["a.pdb", "--panel", "vdw", "--view", "0,0,1", "--size", 600, "--legend", "off", "-q", "-o", "a.png", "--force"]
+        self.check(0, *words, "--surface", "sas", "--voxel", "0.5", "--style", "flat")
+        found, rows = read_png((self.folder / "a.png").read_bytes())
+        left, right = self.runs([[tuple(row[3 * x:3 * x + 3]) for x in range(found)] for row in rows])
+        scale = (left[1] - left[0] - right[1] + right[0]) / 2.8  # pixels an Å: the probe, on both sides
+        self.assertAlmostEqual((right[1] - right[0]) / scale, 16 + 3.4, delta=0.7)
+        self.assertAlmostEqual(sum(left) / 2 + 300, sum(right) / 2, delta=2)
+        said = self.check(0, "a.pdb", "--panel", "variational", "--surface", "ses", "--lambda", "0.015", "--voxel", "0.7",
+                          "-o", "a.png", "--force").stderr.decode()
+        self.assertNotIn("--lambda is for", said)
+        self.check(2, "a.pdb", "--panel", "variational", "--surface", "ses", "--lambda=-1", "-o", "b.png", says="lambda")
+        (self.folder / "ses").write_bytes((self.folder / "a.pdb").read_bytes())  # a word, and no file
+        self.check(0, "a.pdb", "--panel", "./ses", "--voxel", "1", "-o", "a.png", "--force", says="ses: PDB")
+
+    def test_a_panel_that_is_not_at_rest(self):
+        """Its picture is written, with the status that it has as a picture by itself."""
+        self.rod("a.pdb", 6)
+        self.rod("b.pdb", 6)
+        words = ["--voxel", "0.7", "--flow", "newton", "--lambda", "0.03", "--max-steps", "1", "-o", "a.png", "--force"]
+        self.check(3, "b.pdb", *words, says="not converged")
+        said = self.check(3, "a.pdb", "--surface", "ses", "--panel", "variational", *words, says="variational: not converged")
+        self.assertEqual(said.stderr.decode().count("not converged"), 1)
+        self.assertIn("a.png", self.names())
+
     def test_refused(self):
         self.rod("a.pdb", 4)
         words = ["a.pdb", "--surface", "vdw", "--voxel", 1, "-o", "a.png"]

@@ -214,7 +214,7 @@ class Pictures(ToolTest):
         for value, says in (("stick", "did you mean sticks?"), ("A/1=", "expected sticks, balls"),
                             ("(XYZ)=sticks", "matches no atom"), ("A//CB=tube", "nothing to show")):
             self.check(1 if "XYZ" in value or "CB" in value else 2, CRAMBIN, "-o", "b.png", "--show", value, says=says)
-        self.check(0, CRAMBIN, *FAST, "-o", "b.ply", "--show", "sticks", says="--show is for .png")
+        self.check(0, CRAMBIN, *FAST, "-o", "b.ply", "--show", "sticks", says="--show is for .html, .png")
 
     def test_atoms_of_frames_and_copies(self):
         self.check(0, DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "--show", "sticks", "--opacity", "0.3", "--size", "150",

@@ -3,11 +3,12 @@
 
 import csv
 import json
+import re
 import subprocess
 import unittest
 
 from needs import KVFINDER_PYTHON, needs
-from tool import CRAMBIN, DATA, ToolTest, read_ply
+from tool import CRAMBIN, DATA, ToolTest, read_ply, read_png
 
 DIMER = DATA / "1a8o.pdb.gz"
 DETECT = """
@@ -101,6 +102,83 @@ class Pockets(ToolTest):
         self.assertGreater(max(colors), 8)
         for pocket, color in colors.items():
             (self.assertGreater if pocket else self.assertEqual)(max(color) - min(color), 30 if pocket else 0)
+
+    def bodies(self, stem):
+        """The volume of each mesh of a pocket, which has to be closed."""
+        volumes = []
+        while (path := self.folder / f"{stem}.pocket{len(volumes) + 1}.ply").exists():
+            _, vertices, triangles = read_ply(path.read_bytes())
+            edges = {(t[k], t[(k + 1) % 3]) for t in triangles for k in range(3)}
+            self.assertEqual(len(edges), 3 * len(triangles))
+            self.assertTrue(all((b, a) in edges for a, b in edges))
+            six = 0.0
+            for t in triangles:
+                (a, b, c), (d, e, f), (g, h, i) = (vertices[v][:3] for v in t)
+                six += a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+            volumes.append(six / 6)
+        return volumes
+
+    def test_each_has_a_mesh(self):
+        """Of the volume of the table, those that are split at a neck, too; other formats hold the same."""
+        self.check(0, DATA / "bpti.pdb.gz", "--pocket-cut", "0.5", "-o", "b.pockets.ply", "-o", "b.pockets.csv")
+        rows = self.table("b.pockets.csv")[1]
+        found = self.bodies("b")
+        self.assertEqual(len(found), len(rows))
+        self.assertTrue(any(row["neighbours"] for row in rows))
+        for volume, row in zip(found, rows):
+            self.assertAlmostEqual(volume, float(row["volume"]), delta=0.03 * float(row["volume"]) + 1.5, msg=row["pocket"])
+        self.check(0, DATA / "bpti.pdb.gz", "--pocket-cut", "0.5", "--voxel", "0.5", "--surface", "ses", "-o", "c.pockets.ply", "-o", "c.vdb",
+                   *(f"-oc.pockets.{word}" for word in ("obj", "stl", "off", "vtk", "glb")))
+        self.assertEqual((self.folder / "c.pocket1.ply").read_bytes(), (self.folder / "b.pocket1.ply").read_bytes())
+        self.assertNotIn("pocket_room", self.check(0, "info", "c.vdb").stdout.decode())
+        self.assertEqual(len(list(self.folder.glob("c.pocket*"))), 6 * len(rows))
+
+    def test_the_mesh_of_a_site_and_of_none(self):
+        self.check(0, DATA / "1ubq.pdb", "--pocket-at", "resid 60", "--pocket-cut", "0", "-o", "site.pockets.ply")
+        self.assertEqual([n for n in self.names() if "pocket" in n], ["site.pocket1.ply"])
+        self.check(0, CRAMBIN, "--pocket-cut", "9", "-o", "none.pockets.stl", says="pockets: 0")
+        self.assertEqual([n for n in self.names() if n.startswith("none")], [])
+
+    def test_meshes_are_refused_whole(self):
+        words = [DATA / "bpti.pdb.gz", "--pocket-cut", "0.5", "-o", "a.pockets.ply"]
+        (self.folder / "a.pocket2.ply").write_text("mine")
+        self.check(1, *words, says=["a.pocket2.ply", "--force"])
+        self.assertEqual(self.names(), ["a.pocket2.ply"])
+        self.check(1, *words, "-o", "a.pocket1.ply", "--force", says=["a.pocket1.ply", "twice"])
+        self.check(2, *words, "--frames", "all", says="together")
+        self.check(2, words[0], "-o", "a.pockets.wrl", says=".pockets.csv")
+        self.check(2, words[0], "-o", "-", "--format", "pockets.ply", says="together")
+        self.assertEqual(self.names(), ["a.pocket2.ply"])
+
+    def test_bodies_are_seen_through_the_surface(self):
+        """In the colour of the legend, in pictures and pages; the surface is in front of them."""
+        self.box("box.xyzr")
+        words = ["box.xyzr", "--surface", "ses", "--voxel", "0.7", "--opacity", "0.3", "--show", "pockets", "--pocket-cut", "1"]
+        self.check(0, *words, "--size", "200", "--style", "flat", "-o", "a.png", "-o", "a.html", "-o", "a.pockets.csv")
+        rows = self.table("a.pockets.csv")[1]
+        width, lines = read_png((self.folder / "a.png").read_bytes())
+        pixels = [tuple(line[3 * x:3 * x + 3]) for line in lines for x in range(width)]
+        blue = sum(p[2] > p[0] + 40 for p in pixels[:]) / len(pixels)
+        self.assertGreater(blue, 0.02)
+        header = json.loads(re.search(r'id="header">(.*?)</script>', (self.folder / "a.html").read_text(), re.DOTALL)[1])
+        self.assertEqual(header["opacity"], 0.3)
+        self.assertEqual([e["name"].split(":")[0] for e in header["bodies"]["entries"]], [row["pocket"] for row in rows])
+        self.assertEqual(len(header["bodies"]["parts"]), len(rows))
+        said = self.check(0, *words[:-4], "-o", "b.html", "--show", "spheres").stderr.decode()
+        self.assertIn("--show: atoms are in", said)
+
+    def test_legends_name_what_is_drawn(self):
+        """A pocket that has no wall on the surface is in no legend."""
+        self.check(0, DATA / "4at1.ent.gz", "--select", "B", "--voxel", "0.7", "--color", "pocket", "-o", "a.html", "-o", "a.legend.svg", "-o", "a.ply", says="no wall")
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        column = names.index("pocket")
+        seen = {int(v[column]) for v in vertices}
+        svg = (self.folder / "a.legend.svg").read_text()
+        listed = {int(n) for n in re.findall(r">(\d+): \d+ Å³<", svg)}
+        self.assertEqual(listed, seen - {0})
+        header = json.loads(re.search(r'id="header">(.*?)</script>', (self.folder / "a.html").read_text(), re.DOTALL)[1])
+        entries = header["modes"][0]["entries"]
+        self.assertEqual({n for n, e in enumerate(entries) if e["seen"]}, seen)
 
     def test_a_table_without_pockets_is_empty(self):
         self.check(0, CRAMBIN, "--probe-in", 3, "--voxel", 1, "-o", "none.pockets.csv", says=["pockets: 0"])

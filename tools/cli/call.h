@@ -65,6 +65,7 @@ enum Holds : unsigned {
     Script = 1 << 19,           ///< what opens another file of the run
     Solver = 1 << 21,           ///< what APBS reads
     Shares = 1 << 22,           ///< shares of frames, on voxels
+    Numbered = 1 << 24,         ///< a file of each pocket
     Moving = 1 << 23            ///< the pictures of a turntable or of frames in one film
 };
 
@@ -112,6 +113,7 @@ struct Output {
     std::string path; ///< "-" is standard output
     const Format* format;
     std::string beside{};         ///< of a Stage: the .vdb that it shows, or the .usda of a frame
+    std::size_t pocket = 0;       ///< of a Numbered one: which, from 1
     double turn = 0.0;            ///< of a picture of a turntable, beside that of all [degree]
     std::shared_ptr<Film> film{}; ///< of all frames, which gets a picture of each; null: none
 
@@ -121,8 +123,11 @@ struct Output {
 
 /// A further picture beside the first one.
 struct Panel {
-    std::string file;          ///< of another structure; empty: the same from somewhere else
-    openvdb::Vec3d toEye{0.0}; ///< the direction of that
+    std::string file{};                ///< of another structure; empty: it is of the same
+    openvdb::Vec3d toEye{0.0};         ///< from there
+    std::optional<SurfaceKind> kind{}; ///< or of that kind
+
+    bool hasSurface() const { return !file.empty() || kind; }
 };
 
 /// The values of the options that were given, by name; in the order of the command line if one was
@@ -168,6 +173,7 @@ struct Call : Settings, PictureSettings {
     double wall = 0.0;           ///< least thickness of a print [mm]; 0: none
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none
     std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
+    bool showsPockets = false;   ///< whether pictures and pages show the bodies of pockets
     std::vector<NoteRule> notes; ///< labels and rulers of pictures
     std::vector<Panel> panels;   ///< of pictures, beside the first one
     int turntable = 0;           ///< number of pictures; 0: one
@@ -189,8 +195,8 @@ struct Call : Settings, PictureSettings {
     std::string inputSha256, identity; ///< as tools/identity.h has them; empty: not known yet
     std::size_t brick = 0;             ///< BricksRun: its number, from 1
     std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
-    /// Of `panels` with a file; null: they are not made yet.
-    std::shared_ptr<const std::vector<PanelSurface>> panelSurfaces;
+    /// Of `panels` that have one, once they are made.
+    std::shared_ptr<std::vector<PanelSurface>> panelSurfaces;
     int frame = 0;                     ///< the number of the one that is built; 0: none is
     std::vector<std::string> warnings; ///< one line each
     /// Of the files in the folders of frames.
@@ -211,6 +217,7 @@ struct Call : Settings, PictureSettings {
         bool any = such(options.kind) ||
                    (hasField(options.fields, "sas") && such(SurfaceKind::SolventAccessible));
         for (const auto& [group, kind] : options.surfaceOf) any = any || such(kind);
+        for (const Panel& panel : panels) any = any || (panel.kind && such(*panel.kind));
         return any;
     }
 

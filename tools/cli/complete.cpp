@@ -4,6 +4,7 @@
 #include "cli/option_table.h"
 #include "cli/pair_table.h"
 #include "cli/verb_table.h"
+#include "draw_result.h"
 #include "outputs.h"
 #include "sidecar.h"
 
@@ -294,6 +295,8 @@ void warnOfLosses(Call& call)
                 call.warnings.push_back(std::string("--") + option.name + " is for " +
                                         endingsOf(option.shownIn, call.verb));
     const bool means = call.options.ballAreas && call.atoms.valueBy; // in tables
+    if (!call.shows.empty() && call.writes(ColorChoices) && !call.writes(Pixels))
+        call.warnings.push_back("--show: atoms are in " + endingsOf(Pixels, call.verb));
     if (call.has("color") && call.options.color != ColorBy::Nothing && !means &&
         !call.writes(Colors))
         call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
@@ -349,7 +352,7 @@ void completeAreas(Call& call)
         call.options.areasOf = SurfaceKind::SolventAccessible;
         if (call.writesOnly(Areas | Shares)) call.options.kind = SurfaceKind::SolventAccessible;
     }
-    call.options.pockets |= call.writes(Shares);
+    call.options.pockets |= call.showsPockets || call.writes(Shares);
     call.options.grid = !asksForNumbers(call);
     call.atoms.names = !tables.empty() || call.writes(ColorChoices);
     if (tables.empty()) return;
@@ -420,6 +423,7 @@ void completeSurface(Call& call)
     SurfaceOptions& options = call.options;
     checkOptions(call.atoms);
     checkOptions(options);
+    for (const Panel& panel : call.panels) checkOptions(panelOptions(options, panel));
 
     warnOfKinds(call);
     if (options.voxel > coarseVoxel)

@@ -10,6 +10,7 @@
 #include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/set_value.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -541,6 +542,7 @@ Option showOption()
 {
     Values all;
     for (const AtomStyle& row : atomStyles()) all.push_back(row.word + ": "s + row.help);
+    all.push_back("or pockets: their bodies, in pages too");
     Option show{
         "show",
         0,
@@ -551,11 +553,24 @@ Option showOption()
         "",
         Build | Batch};
     for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
+    show.words.push_back("pockets");
     show.repeats = true;
     show.set = [](Call& call, const Values& values) {
-        for (const std::string& value : values) call.shows.push_back(parseShow(value));
+        for (const std::string& value : values)
+            if (lowered(value) == "pockets")
+                call.showsPockets = true;
+            else
+                call.shows.push_back(parseShow(value));
     };
     return show;
+}
+
+/// The kind of surface that a word names.
+std::optional<SurfaceKind> surfaceKindOf(const std::string& word)
+{
+    for (const KindRow& row : kindTable())
+        if (lowered(word) == row.word) return row.kind;
+    return std::nullopt;
 }
 
 Option panelOption()
@@ -565,22 +580,26 @@ Option panelOption()
                  "WHAT",
                  "a further picture beside the first, with its camera, scale\n"
                  "and legend: the FILE of another structure, or the same one\n"
-                 "from X,Y,Z; repeats",
+                 "from X,Y,Z or with a surface of another KIND; a page shows\n"
+                 "files and kinds side by side or in turn; repeats",
                  "",
                  Build};
     panel.repeats = true;
     panel.file = [](const std::string& value) {
-        return directionOf(value) ? std::string::npos : std::size_t(0);
+        return directionOf(value) || surfaceKindOf(value) ? std::string::npos : std::size_t(0);
     };
     panel.set = [](Call& call, const Values& values) {
         for (const std::string& value : values) {
             const auto way = directionOf(value);
             if (value.empty() || (way && !(way->length() > 0.0 && std::isfinite(way->length()))))
                 wrongValue("panel", "a file or a direction X,Y,Z that is not 0", value);
-            call.panels.push_back(way ? Panel{"", *way} : Panel{value});
+            const auto kind = surfaceKindOf(value);
+            call.panels.push_back(way    ? Panel{"", *way}
+                                  : kind ? Panel{"", openvdb::Vec3d(0.0), kind}
+                                         : Panel{value});
         }
     };
-    return shownIn(Pixels, panel);
+    return shownIn(Pixels | ColorChoices, panel);
 }
 
 /// An option that adds to the notes of pictures.
@@ -633,9 +652,10 @@ OptionGroup pictureOptions()
             {shownIn(Views, view), shownIn(Views, picture("up", draw)),
              shownIn(Views, picture("turn", draw)), pixels("size"), pixels("background"),
              shownIn(PlainColor, picture("plain-color", wholes | Convert)), pixels("style"),
-             shownIn(Pixels, showOption()), labelOption(), rulerOption(), panelOption(),
-             pixels("opacity"), pixels("all-walls"), pixels("clip"), pixels("depth-cue"),
-             pixels("legend"), pixels("scale-bar"), pixels("dpi"),
+             shownIn(Pixels | ColorChoices, showOption()), labelOption(), rulerOption(),
+             panelOption(), shownIn(Pixels | ColorChoices, picture("opacity", draw)),
+             pixels("all-walls"), pixels("clip"), pixels("depth-cue"), pixels("legend"),
+             pixels("scale-bar"), pixels("dpi"),
              shownIn(Pixels, count("turntable", "N",
                                    "N pictures round the upright: name.0001.png, ..., or in\na "
                                    "film, such as name.mp4",

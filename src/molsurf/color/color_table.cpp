@@ -300,9 +300,12 @@ ColorKind byPocket()
         for (const auto& label : mesh.labels) {
             if (label.name != legend.attribute || mesh.colors.empty()) continue;
             for (const std::string& name : label.names)
-                legend.entries.push_back({name, neutralColor});
-            for (std::size_t v = 0; v < label.values.size(); ++v)
-                legend.entries[std::size_t(label.values[v])].color = mesh.colors[v];
+                legend.entries.push_back({name, neutralColor, false});
+            for (std::size_t v = 0; v < label.values.size(); ++v) {
+                LegendEntry& entry = legend.entries[std::size_t(label.values[v])];
+                entry.color = mesh.colors[v];
+                entry.seen = true;
+            }
         }
     };
     return kind;

@@ -4,6 +4,9 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -56,6 +59,13 @@ void needMemory(const std::string& what, double more, std::size_t memory)
     if (memory > 0)
         text += formatted(" [hint: `memory` %.0fM]", std::ceil(1.1 * bytes / double(1 << 20)));
     throw Error(ErrorKind::Input, text, memory == 0); // another machine may have more
+}
+
+void trimHeap()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 } // namespace molsurf

@@ -26,4 +26,8 @@ bool hasMemory(double more, std::size_t memory);
 /// @throws Error(ErrorKind::Input) with both numbers
 void needMemory(const std::string& what, double more, std::size_t memory);
 
+/// Gives memory that was freed back to the system: the allocator keeps what many small pieces
+/// leave.
+void trimHeap();
+
 } // namespace molsurf

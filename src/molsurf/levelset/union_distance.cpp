@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/levelset/union_distance.h"
 
+#include "molsurf/core/memory.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/levelset/kink.h"
 #include "molsurf/levelset/leaf_feet.h"
 #include "molsurf/levelset/part_tables.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
@@ -234,15 +232,6 @@ private:
     double voxel_, inside_, outside_;
     const PartTables tables_;
 };
-
-/// Gives memory that was freed back to the system. The boundary of a large molecule is made of many
-/// small pieces, which the allocator would keep.
-void trimHeap()
-{
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-}
 
 DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
                     const Progress& progress, const openvdb::CoordBBox& box)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/ray_scene.h"
 
+#include "molsurf/core/memory.h"
 #include "molsurf/error.h"
 
 #include <cstring>
@@ -10,11 +11,12 @@
 namespace molsurf
 {
 
-RayScene::RayScene(const Mesh& mesh)
+RayScene::RayScene(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles)
 {
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::bad_alloc();
-    scene_ = sceneOf(mesh, 0, mesh.triangles.size());
+    scene_ = sceneOf(positions, triangles, 0, triangles.size());
+    trimHeap(); // what it was built with
 }
 
 RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& parts,
@@ -22,7 +24,8 @@ RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, st
 {
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::bad_alloc();
-    for (const auto& [first, end] : parts) parts_.push_back(sceneOf(mesh, first, end));
+    for (const auto& [first, end] : parts)
+        parts_.push_back(sceneOf(mesh.positions, mesh.triangles, first, end));
     scene_ = rtcNewScene(device_);
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const MeshInstance& instance = instances[i];
@@ -42,24 +45,24 @@ RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, st
     check();
     rtcCommitScene(scene_);
     check();
+    trimHeap(); // what it was built with
 }
 
-RTCScene RayScene::sceneOf(const Mesh& mesh, std::size_t first, std::size_t end)
+RTCScene RayScene::sceneOf(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles,
+                           std::size_t first, std::size_t end)
 {
     const RTCScene scene = rtcNewScene(device_);
     // No ray slips through between triangles.
     rtcSetSceneFlags(scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree reads 16 bytes at the last vertex too, so it gets buffers of its own.
-    void* positions =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(openvdb::Vec3f), mesh.positions.size());
+    void* own = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                        sizeof(openvdb::Vec3f), positions.size());
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               mesh.triangles.data(), first * sizeof(mesh.triangles[0]),
-                               sizeof(mesh.triangles[0]), end - first);
-    if (positions) {
-        std::memcpy(positions, mesh.positions.data(),
-                    mesh.positions.size() * sizeof(openvdb::Vec3f));
+                               triangles.data(), first * sizeof(triangles[0]), sizeof(triangles[0]),
+                               end - first);
+    if (own) {
+        std::memcpy(own, positions.data(), positions.size() * sizeof(openvdb::Vec3f));
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
     }

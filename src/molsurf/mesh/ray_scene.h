@@ -18,10 +18,15 @@ namespace molsurf
 class RayScene
 {
 public:
+    using Triangles = decltype(Mesh::triangles);
+
     /// @param[in] mesh  with at least one triangle, positions finite
     /// @throws std::bad_alloc
     /// @throws Error(ErrorKind::Numeric) if Embree refuses
-    explicit RayScene(const Mesh& mesh);
+    explicit RayScene(const Mesh& mesh) : RayScene(mesh.positions, mesh.triangles) {}
+
+    /// The same of some of its triangles, which have to live as long.
+    RayScene(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles);
 
     /// The same of copies of parts, without making them: a hit has the index of its instance, and
     /// the triangle's within its part.
@@ -35,7 +40,8 @@ public:
     RTCScene get() const { return scene_; }
 
 private:
-    RTCScene sceneOf(const Mesh& mesh, std::size_t first, std::size_t end);
+    RTCScene sceneOf(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles,
+                     std::size_t first, std::size_t end);
     void check() const;
 
     RTCDevice device_ = nullptr;

@@ -6,6 +6,7 @@
 #include "molsurf/core/perpendicular.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/io/part_ranges.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/residue_bonds.h"
 #include "molsurf/structure/text_fields.h"
@@ -493,6 +494,28 @@ AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progre
         model.instances.push_back(
             {TubePart, "", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, Vec3d(0.0), white});
     return model;
+}
+
+void addBodies(const Mesh& bodies, AtomModel& model)
+{
+    Mesh& mesh = model.mesh;
+    std::size_t place = mesh.triangles.empty() ? 0 : partRanges(mesh, "").size();
+    for (const PartRange& part : partRanges(bodies, "")) {
+        const auto shift = std::uint32_t(mesh.positions.size() - part.firstVertex);
+        mesh.parts.push_back({part.name, mesh.triangles.size()});
+        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
+            mesh.positions.push_back(bodies.positions[v]);
+            mesh.normals.push_back(bodies.normals[v]);
+            mesh.colors.push_back(bodies.colors[v]);
+        }
+        for (std::size_t t = part.firstTriangle; t < part.triangleEnd; ++t) {
+            const auto& corners = bodies.triangles[t];
+            mesh.triangles.push_back({corners[0] + shift, corners[1] + shift, corners[2] + shift});
+        }
+        model.instances.push_back(
+            {place++, part.name, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, Vec3d(0.0), white});
+        model.pockets.push_back({part.name, bodies.colors[part.firstVertex]});
+    }
 }
 
 } // namespace molsurf

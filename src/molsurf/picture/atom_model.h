@@ -25,6 +25,7 @@ struct AtomModel {
     Mesh mesh; ///< a ball and a stick of radius 1, and the tubes as they are
     std::vector<MeshInstance> instances;
     std::vector<LegendEntry> chains, elements; ///< of tubes, and of balls and sticks
+    std::vector<LegendEntry> pockets;          ///< of bodies
 };
 
 /// A way to show atoms.
@@ -62,5 +63,8 @@ double bytesOfModel(const std::vector<ShownAtoms>& shown);
 /// Carbon is golden, other elements have their colours (CPK), tubes that of their chain.
 /// @throws Error(ErrorKind::Input) if a rule has nothing to show, as a tube without a backbone
 AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progress);
+
+/// Adds the parts of a mesh with colours as they are, with a legend of their names.
+void addBodies(const Mesh& bodies, AtomModel& model);
 
 } // namespace molsurf

@@ -183,7 +183,12 @@ private:
 std::vector<Legend> legendsOf(const std::optional<Legend>& surface, const AtomModel* model)
 {
     std::vector<Legend> legends;
-    if (surface) legends.push_back(*surface);
+    if (surface) {
+        legends.push_back(*surface);
+        auto& entries = legends[0].entries;
+        const auto unseen = [](const LegendEntry& entry) { return !entry.seen; };
+        entries.erase(std::remove_if(entries.begin(), entries.end(), unseen), entries.end());
+    }
     if (!model) return legends;
     const auto add = [&](const std::string& title, const std::vector<LegendEntry>& entries) {
         if (entries.empty()) return;
@@ -195,6 +200,7 @@ std::vector<Legend> legendsOf(const std::optional<Legend>& surface, const AtomMo
     };
     add("Chain", model->chains);
     add("Element", model->elements);
+    add("Pocket", model->pockets);
     return legends;
 }
 

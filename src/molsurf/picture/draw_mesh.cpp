@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace molsurf
@@ -57,6 +58,11 @@ struct Light {
 /// Turns layers into light.
 class Painter
 {
+    /// Shares of the sky and of the lamp that are seen.
+    struct Shade {
+        float open = 1.0f, lit = 1.0f;
+    };
+
 public:
     Painter(const View& view, const PictureStyle& style, const DrawOptions& options)
         : view_(view), style_(style), options_(options),
@@ -87,7 +93,7 @@ private:
     Light pixelOf(const Layer& layer, const std::vector<std::uint8_t>& ink, int x, int y) const
     {
         Light out;
-        const PixelLight shared = smoothed(layer, x, y);
+        const Shade shared = smoothed(layer, x, y);
         for (int s = 0; s < int(samplesPerPixel); ++s) {
             const std::size_t n = std::size_t(subpixels * y + s / subpixels) * columns() +
                                   std::size_t(subpixels * x + s % subpixels);
@@ -116,7 +122,7 @@ private:
         return 1.0f - std::pow(1.0f - float(options_.opacity), 1.0f / facing);
     }
 
-    Vec3f colorOf(const Seen& seen, const PixelLight& shared) const
+    Vec3f colorOf(const Seen& seen, const Shade& shared) const
     {
         Vec3f color = linearLight(seen.color);
         if (style_.sky > 0.0f) {
@@ -143,10 +149,11 @@ private:
 
     /// The light of a pixel, as the mean of those about it on the same piece of surface: with these
     /// weights all sixteen patterns of rays count alike.
-    PixelLight smoothed(const Layer& layer, int x, int y) const
+    Shade smoothed(const Layer& layer, int x, int y) const
     {
-        PixelLight here = layer.lights[placeOf(x, y)];
-        if (here.depth == Seen::nothing || style_.sky == 0.0f) return here;
+        const PixelLight& here = layer.lights[placeOf(x, y)];
+        const Vec3f normal = here.normal();
+        if (here.depth == Seen::nothing || style_.sky == 0.0f) return {here.open(), here.lit()};
         const int step = lightStep(options_), reach = 2 * step;
         const auto firstFrom = [&](int place) {
             return (std::max(place, 0) + step - 1) / step * step;
@@ -159,22 +166,20 @@ private:
             for (int i = firstFrom(x - reach); i <= right; i += step) {
                 const PixelLight& other = layer.lights[placeOf(i, j)];
                 if (other.depth == Seen::nothing) continue;
-                const float alike = other.normal.dot(here.normal);
+                const float alike = other.normal().dot(normal);
                 // Those that face elsewhere count a little, lest one alone be a speck.
                 float weight = std::clamp(2.5f * (alike - 0.5f), 0.1f, 1.0f);
                 if (std::abs(other.depth - here.depth) > deepest)
                     weight = 1e-6f; // if there is no other
                 for (const int d : {i - x, j - y})
                     if (d == reach || d == -reach) weight *= 0.5f;
-                open += weight * other.open;
-                lit += weight * other.lit;
+                open += weight * other.open();
+                lit += weight * other.lit();
                 weights += weight;
             }
         }
-        if (weights == 0.0f) return here;
-        here.open = open / weights;
-        here.lit = lit / weights;
-        return here;
+        if (weights == 0.0f) return {here.open(), here.lit()};
+        return {open / weights, lit / weights};
     }
 
     /// The edge between two neighbours, the first of which is not farther away.
@@ -246,16 +251,18 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     if (mesh.triangles.empty()) return blank(options, options.width);
     const View view = chooseView(mesh, options);
     const PictureStyle& style = options.style ? *options.style : styleTable().front();
-    std::vector<Light> lights(std::size_t(view.width) * std::size_t(view.height));
+    std::vector<Light> lights;
     {
-        const Tracer tracer(mesh, view, style, options);
-        const Painter painter(view, style, options);
-        Layer layer = tracer.first(progress);
-        painter.add(layer, progress, lights);
         const bool through = options.opacity < 1.0 && (options.allWalls || options.model);
         const int layers = !through ? 1 : options.allWalls ? mostLayers : 2;
+        std::optional<Tracer> tracer(std::in_place, mesh, view, style, options);
+        const Painter painter(view, style, options);
+        Layer layer = tracer->first(progress);
+        if (layers == 1) tracer.reset(); // its memory is that of the lines
+        lights.resize(std::size_t(view.width) * std::size_t(view.height));
+        painter.add(layer, progress, lights);
         for (int n = 1; n < layers && !layer.empty; ++n) {
-            layer = tracer.behind(layer, progress);
+            layer = tracer->behind(layer, progress);
             painter.add(layer, progress, lights);
         }
     }

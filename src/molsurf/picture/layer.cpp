@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace molsurf
 {
@@ -18,8 +19,8 @@ using openvdb::Vec3f;
 namespace
 {
 
-constexpr std::size_t skyRays = 8, lampRays = 4; // a pixel
-constexpr double nearby = 60.0;                  // what half of the sky's rays look at [Å]
+constexpr std::size_t skyRays = PixelLight::skyRays, lampRays = PixelLight::lampRays;
+constexpr double nearby = 60.0; // what half of the sky's rays look at [Å]
 constexpr std::int32_t unknown = -2;
 constexpr double golden = 0.6180339887498949;
 
@@ -55,6 +56,20 @@ Color multiplied(const Color& a, const Color& b)
     return out;
 }
 
+/// The triangles of a mesh that a cut leaves: no ray goes where the others are. Empty: all.
+RayScene::Triangles keptBy(const DrawOptions& options, const View& view, const Mesh& mesh)
+{
+    RayScene::Triangles kept;
+    if (!options.clip || !options.instances.empty()) return kept;
+    const double top = *options.clip + view.center.dot(view.toEye);
+    std::vector<bool> below(mesh.positions.size());
+    for (std::size_t i = 0; i < below.size(); ++i)
+        below[i] = Vec3d(mesh.positions[i]).dot(view.toEye) <= top;
+    const auto reaches = [&](const auto& t) { return below[t[0]] || below[t[1]] || below[t[2]]; };
+    std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(kept), reaches);
+    return kept;
+}
+
 /// The point of the mesh that a copy has brought to x.
 Vec3d broughtBack(const MeshInstance& copy, const Vec3d& x)
 {
@@ -67,26 +82,22 @@ Vec3d broughtBack(const MeshInstance& copy, const Vec3d& x)
 
 } // namespace
 
-Vec3f Seen::normal() const
-{
-    const float x = float(nx) / 32767.0f, y = float(ny) / 32767.0f;
-    return {x, y, std::sqrt(std::max(0.0f, 1.0f - x * x - y * y))};
-}
-
 Vec3f Tracer::lamp()
 {
     return Vec3f(-0.5f, 0.62f, 0.75f).unit();
 }
 
-Shapes::Shapes(const Mesh& shape, const std::vector<MeshInstance>& copies)
-    : mesh(shape), instances(copies), parts(trianglesOf(shape)),
-      scene(copies.empty() ? RayScene(shape) : RayScene(shape, parts, copies))
+Shapes::Shapes(const Mesh& shape, const std::vector<MeshInstance>& copies, RayScene::Triangles some)
+    : mesh(shape), instances(copies), kept(std::move(some)), parts(trianglesOf(shape)),
+      scene(copies.empty() ? RayScene(shape.positions, kept.empty() ? shape.triangles : kept)
+                           : RayScene(shape, parts, copies))
 {
 }
 
 Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
                const DrawOptions& options)
-    : view_(view), style_(style), options_(options), surface_(mesh, options.instances),
+    : view_(view), style_(style), options_(options),
+      surface_(mesh, options.instances, keptBy(options, view, mesh)),
       top_(std::min(view.far + 1.0, options.clip.value_or(view.far + 1.0))),
       clips_(top_ < view.far + 1.0),
       lamp_(double(lamp()[0]) * view.right + double(lamp()[1]) * view.up +
@@ -266,7 +277,8 @@ PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const
             const Seen& seen = layer.seen[placeOf(column, row)];
             if (seen.depth <= light.depth) continue;
             light.depth = seen.depth;
-            light.normal = seen.normal();
+            light.nx = seen.nx;
+            light.ny = seen.ny;
             isAtom = seen.piece == Seen::atom;
             at = view_.at((column + 0.5) / subpixels, (row + 0.5) / subpixels) +
                  double(seen.depth) * view_.toEye;
@@ -280,12 +292,12 @@ PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const
     const bool asks = (left == x && top == y) || // a thin thing may miss the pixels that ask
                       !layer.seen[placeOf(subpixels * left, subpixels * top)].any();
     if (!asks) return light;
-    const Vec3d normal = double(light.normal[0]) * view_.right +
-                         double(light.normal[1]) * view_.up + double(light.normal[2]) * view_.toEye;
+    const Vec3d seen(light.normal());
+    const Vec3d normal = seen[0] * view_.right + seen[1] * view_.up + seen[2] * view_.toEye;
     const int pattern = patternOf(x / step, y / step);
     const bool among = isAtom && options_.opacity < 1.0;
-    if (style_.sky > 0.0f) light.open = openness(at, normal, among, pattern);
-    if (style_.shadow > 0.0f) light.lit = lampShare(at, normal, among, pattern);
+    if (style_.sky > 0.0f) light.openRays = skyRaysAt(at, normal, among, pattern);
+    if (style_.shadow > 0.0f) light.litRays = lampRaysAt(at, normal, among, pattern);
     return light;
 }
 
@@ -307,7 +319,7 @@ Seen Tracer::atomOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) co
 {
     const MeshInstance& copy = *atoms_->copyOf(rays, s);
     const Mesh& mesh = atoms_->mesh;
-    const auto& t = mesh.triangles[atoms_->parts[copy.part].first + rays.hit.primID[s]];
+    const auto& t = atoms_->triangleOf(rays, s);
     const Vec3f weights(1.0f - rays.hit.u[s] - rays.hit.v[s], rays.hit.u[s], rays.hit.v[s]);
     const Vec3f normal = weights[0] * mesh.normals[t[0]] + weights[1] * mesh.normals[t[1]] +
                          weights[2] * mesh.normals[t[2]];
@@ -322,8 +334,7 @@ Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) con
 {
     const MeshInstance* copy = surface_.copyOf(rays, s);
     const Mesh& mesh = surface_.mesh;
-    const std::size_t first = copy ? surface_.parts[copy->part].first : 0;
-    const auto& t = mesh.triangles[first + rays.hit.primID[s]];
+    const auto& t = surface_.triangleOf(rays, s);
     const Vec3f weights(1.0f - rays.hit.u[s] - rays.hit.v[s], rays.hit.u[s], rays.hit.v[s]);
     const Vec3f side = (mesh.positions[t[1]] - mesh.positions[t[0]])
                            .cross(mesh.positions[t[2]] - mesh.positions[t[0]]);
@@ -390,11 +401,12 @@ double Tracer::lengthTo(double length, const Vec3d& from, const Vec3d& way) cons
     return std::max(0.0, std::min(length, left / rise));
 }
 
-/// Share of rays that meet nothing.
+/// How many rays meet nothing.
 /// @param[in] lengths  of the rays, which `rays` has as far as the surface is not cut away
 /// @param[in] among    whether atoms alone are in the way
 template<std::size_t count, typename Rays>
-float Tracer::freeShare(const std::array<double, count>& lengths, bool among, Rays& rays) const
+std::uint8_t Tracer::freeRays(const std::array<double, count>& lengths, bool among,
+                              Rays& rays) const
 {
     alignas(32) std::array<int, count> valid;
     valid.fill(-1);
@@ -406,14 +418,13 @@ float Tracer::freeShare(const std::array<double, count>& lengths, bool among, Ra
         }
         occlude(valid.data(), atoms_->scene.get(), rays);
     }
-    int open = 0;
-    for (std::size_t k = 0; k < count; ++k) open += rays.tfar[k] >= 0.0f;
-    return float(open) / float(count);
+    return std::uint8_t(
+        std::count_if(rays.tfar, rays.tfar + count, [](float left) { return left >= 0.0f; }));
 }
 
-/// Share of the sky over a point, weighted by the cosine: rays by a golden spiral. To every other
+/// Rays that reach the sky over a point, weighted by the cosine: by a golden spiral. To every other
 /// ray only what is near hides the sky, so that the insides of shells are not all dark.
-float Tracer::openness(const Vec3d& at, const Vec3d& normal, bool among, int pattern) const
+std::uint8_t Tracer::skyRaysAt(const Vec3d& at, const Vec3d& normal, bool among, int pattern) const
 {
     const auto [u, v] = perpendicular(normal);
     const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
@@ -428,13 +439,13 @@ float Tracer::openness(const Vec3d& at, const Vec3d& normal, bool among, int pat
         lengths[k] = k % 2 ? nearby : std::numeric_limits<double>::infinity();
         setRay(rays, k, from, way, lengthTo(lengths[k], from, way));
     }
-    return freeShare(lengths, among, rays);
+    return freeRays(lengths, among, rays);
 }
 
-/// Share of the lamp, a disc, that is seen.
-float Tracer::lampShare(const Vec3d& at, const Vec3d& normal, bool among, int pattern) const
+/// Rays that reach the lamp, a disc.
+std::uint8_t Tracer::lampRaysAt(const Vec3d& at, const Vec3d& normal, bool among, int pattern) const
 {
-    if (normal.dot(lamp_) <= 0.0) return 0.0f;
+    if (normal.dot(lamp_) <= 0.0) return 0;
     const auto [u, v] = perpendicular(lamp_);
     const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
     alignas(16) RTCRay4 rays{};
@@ -448,7 +459,7 @@ float Tracer::lampShare(const Vec3d& at, const Vec3d& normal, bool among, int pa
         const Vec3d way = (lamp_ + r * std::cos(angle) * u + r * std::sin(angle) * v).unit();
         setRay(rays, k, from, way, lengthTo(lengths[k], from, way));
     }
-    return freeShare(lengths, among, rays);
+    return freeRays(lengths, among, rays);
 }
 
 } // namespace molsurf

@@ -10,8 +10,10 @@
 #include "molsurf/picture/style.h"
 #include "molsurf/picture/view.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -38,6 +40,13 @@ inline int lightStep(const DrawOptions& options)
     return isSparse(options) ? 2 : 1;
 }
 
+/// A normal that faces the eye.
+inline openvdb::Vec3f normalOf(std::int16_t nx, std::int16_t ny)
+{
+    const float x = float(nx) / 32767.0f, y = float(ny) / 32767.0f;
+    return {x, y, std::sqrt(std::max(0.0f, 1.0f - x * x - y * y))};
+}
+
 /// The nearest point in one place of a picture.
 struct Seen {
     static constexpr float nothing = -std::numeric_limits<float>::infinity();
@@ -52,15 +61,23 @@ struct Seen {
 
     bool any() const { return depth > nothing; }
     bool opaque() const { return piece >= atom; } ///< whatever the surface is
-    openvdb::Vec3f normal() const;                ///< to the right, up, toward the eye
+    /// To the right, up, toward the eye.
+    openvdb::Vec3f normal() const { return normalOf(nx, ny); }
 };
 
-/// The nearest point in a pixel, and its light if the pixel asks for it.
+/// The nearest point in a pixel, and its light if the pixel asks for it: there are millions of
+/// them.
 struct PixelLight {
-    openvdb::Vec3f normal{0.0f}; ///< of what is nearest, as Seen::normal()
-    float depth = Seen::nothing; ///< of that [Å]
-    float open = 1.0f;           ///< share of the sky that is seen
-    float lit = 1.0f;            ///< share of the lamp that is seen
+    static constexpr std::size_t skyRays = 8, lampRays = 4;
+
+    float depth = Seen::nothing;     ///< of what is nearest [Å]
+    std::int16_t nx = 0, ny = 0;     ///< of its normal, as Seen has it
+    std::uint8_t openRays = skyRays, ///< rays that reach the sky
+        litRays = lampRays;          ///< rays that reach the lamp
+
+    openvdb::Vec3f normal() const { return normalOf(nx, ny); }
+    float open() const { return float(openRays) / float(skyRays); } ///< share of the sky
+    float lit() const { return float(litRays) / float(lampRays); }  ///< share of the lamp
 };
 
 /// Everything that the eye sees, up to the first opaque thing.
@@ -72,7 +89,9 @@ struct Layer {
 
 /// Triangles in Embree's hands, as they are or in copies.
 struct Shapes {
-    Shapes(const Mesh& mesh, const std::vector<MeshInstance>& instances);
+    /// @param[in] some  of the triangles, those that rays meet; empty: all
+    Shapes(const Mesh& mesh, const std::vector<MeshInstance>& instances,
+           RayScene::Triangles some = {});
 
     /// The copy that a ray has met; null: there are no copies.
     const MeshInstance* copyOf(const RTCRayHit4& rays, std::size_t s) const
@@ -80,8 +99,16 @@ struct Shapes {
         return instances.empty() ? nullptr : &instances[rays.hit.instID[0][s]];
     }
 
+    /// The triangle that a ray has met.
+    const auto& triangleOf(const RTCRayHit4& rays, std::size_t s) const
+    {
+        const std::size_t first = instances.empty() ? 0 : parts[copyOf(rays, s)->part].first;
+        return (kept.empty() ? mesh.triangles : kept)[first + rays.hit.primID[s]];
+    }
+
     const Mesh& mesh;
     const std::vector<MeshInstance>& instances;
+    RayScene::Triangles kept;                               ///< those in the scene; empty: all
     std::vector<std::pair<std::size_t, std::size_t>> parts; ///< triangles [first, end)
     RayScene scene;
 };
@@ -131,12 +158,12 @@ private:
     Color colorAt(const std::uint32_t* corners, const openvdb::Vec3f& weights,
                   const openvdb::Vec3d& x) const;
     Color borderColor(const std::uint32_t* corners, const openvdb::Vec3d& x) const;
-    float openness(const openvdb::Vec3d& at, const openvdb::Vec3d& normal, bool among,
-                   int pattern) const;
-    float lampShare(const openvdb::Vec3d& at, const openvdb::Vec3d& normal, bool among,
-                    int pattern) const;
+    std::uint8_t skyRaysAt(const openvdb::Vec3d& at, const openvdb::Vec3d& normal, bool among,
+                           int pattern) const;
+    std::uint8_t lampRaysAt(const openvdb::Vec3d& at, const openvdb::Vec3d& normal, bool among,
+                            int pattern) const;
     template<std::size_t count, typename Rays>
-    float freeShare(const std::array<double, count>& lengths, bool among, Rays& rays) const;
+    std::uint8_t freeRays(const std::array<double, count>& lengths, bool among, Rays& rays) const;
     double lengthTo(double length, const openvdb::Vec3d& from, const openvdb::Vec3d& way) const;
 
     const View& view_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/legend_svg.h"
 
+#include "molsurf/core/markup.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/draw_legend.h"
@@ -17,22 +18,6 @@ namespace
 // In units of the drawing.
 constexpr int letters = 16, line = 20, gap = 8, barHeight = 9 * line;
 constexpr double wider = 1.15; // than DejaVu Sans a viewer's font may be
-
-std::string escaped(const std::string& text)
-{
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (static_cast<unsigned char>(c) >= ' ')
-            out += c;
-    }
-    return out;
-}
 
 /// Draws downward.
 class Drawing
@@ -95,7 +80,7 @@ private:
     {
         widest_ = std::max(widest_, left + font_.width(words));
         body_ +=
-            formatted("<text x=\"%d\" y=\"%d\">", left, baseline) + escaped(words) + "</text>\n";
+            formatted("<text x=\"%d\" y=\"%d\">", left, baseline) + markupText(words) + "</text>\n";
     }
 
     void box(int left, int top, int width, int height, const std::string& fill)

@@ -53,20 +53,39 @@ void addSpan(const Mesh& mesh, const std::vector<MeshInstance>& instances, int d
 }
 
 /// Points that span what is shown: the vertices, or of copies the outermost ones.
-std::vector<Vec3d> spanOf(const Mesh& mesh, const DrawOptions& options)
+class Span
 {
-    std::vector<Vec3d> out;
-    if (options.instances.empty())
-        for (const Vec3f& p : mesh.positions) out.push_back(Vec3d(p));
-    else
-        addSpan(mesh, options.instances, manyDirections, out);
-    if (const AtomModel* model = options.model.get()) {
+public:
+    Span(const Mesh& mesh, const DrawOptions& options)
+        : vertices_(options.instances.empty() ? &mesh.positions : nullptr)
+    {
+        if (!vertices_) addSpan(mesh, options.instances, manyDirections, others_);
+        const AtomModel* model = options.model.get();
+        if (!model) return;
         const int directions =
             std::clamp(int(200000 / model->instances.size()), 20, manyDirections);
-        addSpan(model->mesh, model->instances, directions, out);
+        addSpan(model->mesh, model->instances, directions, others_);
     }
-    return out;
-}
+
+    template<typename F>
+    void forEach(const F& f) const
+    {
+        if (vertices_)
+            for (const Vec3f& p : *vertices_) f(Vec3d(p));
+        for (const Vec3d& p : others_) f(p);
+    }
+
+    std::vector<Vec3d> points() const
+    {
+        std::vector<Vec3d> out;
+        forEach([&](const Vec3d& p) { out.push_back(p); });
+        return out;
+    }
+
+private:
+    const std::vector<Vec3f>* vertices_;
+    std::vector<Vec3d> others_;
+};
 
 /// Principal axes of points, the longest first.
 std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points)
@@ -169,9 +188,9 @@ void keepView(std::size_t count, const std::function<std::vector<Vec3d>(std::siz
 View chooseView(const Mesh& mesh, const DrawOptions& options)
 {
     View view;
-    const std::vector<Vec3d> points = spanOf(mesh, options);
+    const Span span(mesh, options);
     const std::array<Vec3d, 3> axes =
-        axesOf(options.about.empty() ? points : options.about, options);
+        axesOf(options.about.empty() ? span.points() : options.about, options);
     view.right = axes[0];
     view.up = axes[1];
     view.toEye = axes[2];
@@ -179,18 +198,18 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     // A turn must not change the scale, so the extent across is that of all turns.
     Vec3d low(std::numeric_limits<double>::max()), high(-low);
     double reach = 0.0;
-    for (const Vec3d& x : points) {
+    span.forEach([&](const Vec3d& x) {
         const Vec3d seen(x.dot(view.right), x.dot(view.up), x.dot(view.toEye));
         low = openvdb::math::minComponent(low, seen);
         high = openvdb::math::maxComponent(high, seen);
-    }
+    });
     const Vec3d mid = 0.5 * (low + high), extent = high - low;
     view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
     if (options.turn != 0.0 || options.turnable) {
-        for (const Vec3d& p : points) {
+        span.forEach([&](const Vec3d& p) {
             const Vec3d d = p - view.center;
             reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
-        }
+        });
     }
     const double across = std::max(extent[0], 2.0 * reach), upward = extent[1];
     PictureFrame frame = frameOf(view.center, across, upward);
@@ -211,7 +230,7 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
 
 std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
 {
-    return axesOf(options.about.empty() ? spanOf(mesh, options) : options.about, options);
+    return axesOf(options.about.empty() ? Span(mesh, options).points() : options.about, options);
 }
 
 } // namespace molsurf

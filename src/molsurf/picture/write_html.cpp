@@ -4,7 +4,7 @@
 #include "molsurf/balls/nearest_ball.h"
 #include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
-
+#include "molsurf/core/markup.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
@@ -39,6 +39,7 @@ public:
              const Value& value)
     {
         table_.push_back(Json{{"name", name},
+                              {"layer", layer},
                               {"offset", bytes_.size()},
                               {"count", count},
                               {"components", components},
@@ -55,6 +56,8 @@ public:
             }
         }
     }
+
+    std::size_t layer = 0; ///< of the page, that has what is added
 
     const Json& table() const { return table_; }
 
@@ -145,7 +148,8 @@ Json modeOf(const Legend& legend, const Mesh& mesh, const std::string& level, Ar
         return {};
     }
     for (const LegendEntry& entry : legend.entries)
-        mode["entries"].push_back(Json{{"name", entry.name}, {"color", colorJson(entry.color)}});
+        mode["entries"].push_back(
+            Json{{"name", entry.name}, {"color", colorJson(entry.color)}, {"seen", entry.seen}});
     return mode;
 }
 
@@ -256,9 +260,22 @@ Json cutOf(const HtmlPage& page, const openvdb::Vec3d& origin, Arrays& arrays)
     return {{"step", step}, {"radius_step", radiusStep}, {"low", {low[0], low[1], low[2]}}};
 }
 
-Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
+/// Packs the bodies inside, with their legend.
+Json bodiesOf(const Mesh& bodies, const openvdb::Vec3d& origin, Arrays& arrays)
 {
-    const openvdb::Vec3d origin = boxOf(mesh).getCenter();
+    Json out = levelOf(bodies, origin, "_bodies", arrays);
+    arrays.add("color_bodies", bodies.colors.size(), 3, 1, [&](std::size_t i, int c) {
+        return std::uint32_t(bodies.colors[i][std::size_t(c)]);
+    });
+    for (const PartRange& part : partRanges(bodies, ""))
+        out["entries"].push_back(
+            Json{{"name", part.name}, {"color", colorJson(bodies.colors[part.firstVertex])}});
+    return out;
+}
+
+/// @param[in] origin  of the page [Å]
+Json headerOf(const Mesh& mesh, const HtmlPage& page, const openvdb::Vec3d& origin, Arrays& arrays)
+{
     Json levels = Json::array({levelOf(mesh, origin, "", arrays)});
     for (std::size_t n = 0; n < page.coarser.size(); ++n)
         levels.push_back(levelOf(*page.coarser[n], origin, "_lod" + std::to_string(n + 1), arrays));
@@ -289,7 +306,10 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
     Json names = page.names && !page.ballOf.empty() ? namesOf(page, arrays) : Json();
     const bool colored = !page.balls.empty() && page.instances.empty();
     Json cut = colored ? cutOf(page, origin, arrays) : Json();
+    const bool has = page.bodies && !page.bodies->triangles.empty();
+    Json bodies = has ? bodiesOf(*page.bodies, origin, arrays) : Json();
     return {{"title", page.title},
+            {"name", page.name},
             {"about", page.about},
             {"levels", levels},
             {"copies", copiesOf(page.instances, origin)},
@@ -297,22 +317,34 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, Arrays& arrays)
             {"modes", modes},
             {"names", names},
             {"cut", cut},
-            {"arrays", arrays.table()}};
+            {"bodies", bodies},
+            {"opacity", page.opacity}};
 }
 
-/// Text that may stand anywhere in HTML; in JSON the escape means the same letter.
-std::string escaped(const std::string& text, const char* less, const char* ampersand)
+/// Gives layers the scales of values that the first one has.
+void shareScales(std::vector<HtmlLayer>& layers)
 {
-    std::string all;
-    for (const char letter : text) {
-        if (letter == '<')
-            all += less;
-        else if (letter == '&')
-            all += ampersand;
-        else
-            all += letter;
+    for (std::size_t n = 1; n < layers.size(); ++n)
+        for (Legend& legend : layers[n].page.legends)
+            for (const Legend& first : layers[0].page.legends)
+                if (legend.scale && first.scale && first.id == legend.id)
+                    legend.scale = first.scale;
+}
+
+/// The header of the first layer, with those of the others.
+Json headerOf(const std::vector<HtmlLayer>& layers, Arrays& arrays)
+{
+    const openvdb::Vec3d place = boxOf(layers[0].mesh).getCenter();
+    Json header = headerOf(layers[0].mesh, layers[0].page, place, arrays), others = Json::array();
+    for (std::size_t n = 1; n < layers.size(); ++n) {
+        const auto& [mesh, page] = layers[n];
+        arrays.layer = n;
+        others.push_back(
+            headerOf(mesh, page, page.inPlace ? place : boxOf(mesh).getCenter(), arrays));
     }
-    return all;
+    header["others"] = std::move(others);
+    header["arrays"] = arrays.table();
+    return header;
 }
 
 } // namespace
@@ -355,9 +387,15 @@ void colorCut(const BallSet& atoms, std::vector<Ball> balls, const Progress& pro
 
 void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file)
 {
+    writeHtml({{mesh, page}}, file);
+}
+
+void writeHtml(std::vector<HtmlLayer> layers, OutputFile& file)
+{
     needViewer();
+    shareScales(layers);
     Arrays arrays;
-    const Json header = headerOf(mesh, page, arrays);
+    const Json header = headerOf(layers, arrays);
     const std::string headerText = header.dump(-1, ' ', false, Json::error_handler_t::replace);
 
     // The page with its four places filled in, in their order.
@@ -368,8 +406,8 @@ void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file)
         file.write(text);
         left.remove_prefix(at + place.size());
     };
-    fill("%TITLE%", escaped(page.title, "&lt;", "&amp;"));
-    fill("%HEADER%", escaped(headerText, "\\u003c", "&"));
+    fill("%TITLE%", markupText(layers[0].page.title));
+    fill("%HEADER%", scriptText(headerText));
     fill("%DATA%", arrays.packed());
     fill("%VIEWER%", viewerScript);
     file.write(left);

@@ -20,6 +20,7 @@ namespace molsurf
 /// The content of the page besides the mesh.
 struct HtmlPage {
     std::string title;
+    std::string name{};            ///< of the surface among the layers of a page
     std::string about{};           ///< what the surface is
     std::vector<Legend> legends{}; ///< the colours to choose from, the first one first
     Color plain = {140, 181, 222}; ///< of the mesh without them
@@ -39,6 +40,17 @@ struct HtmlPage {
     /// cut is grey.
     std::vector<Ball> balls{};
     std::vector<std::vector<Color>> cutColors{};
+    const Mesh* bodies = nullptr; ///< opaque parts inside, with names and colours; null: none
+    double opacity = 1.0;         ///< of the surface at first
+    /// Of a further layer: whether it is where the first one is. Else its middle comes to that
+    /// one's.
+    bool inPlace = false;
+};
+
+/// A surface of a page.
+struct HtmlLayer {
+    const Mesh& mesh;
+    HtmlPage page;
 };
 
 /// The line on a page's surface: "Surface variational, voxels of 0.5 Å. Areas are of its mesh."
@@ -69,5 +81,10 @@ void colorCut(const BallSet& atoms, std::vector<Ball> balls, const Progress& pro
 ///
 /// @throws Error(ErrorKind::Output) if there is no viewer or the file cannot be written
 void writeHtml(const Mesh& mesh, const HtmlPage& page, OutputFile& file);
+
+/// The same with several surfaces, which the reader sees side by side or one at a time: with the
+/// title and the axes of the first one, and its scales of values.
+/// @param[in] layers  at least one
+void writeHtml(std::vector<HtmlLayer> layers, OutputFile& file);
 
 } // namespace molsurf

@@ -191,6 +191,27 @@ typename GridT::Ptr voxelGrid(const char* name, const VoidField& space, const Ba
     return grid;
 }
 
+/// The room of voxels that have any, and of those about them.
+openvdb::FloatGrid::Ptr roomGrid(const VoidField& space)
+{
+    const auto grid = openvdb::FloatGrid::create(-float(space.voxelSize));
+    grid->setName("pocket_room");
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(space.voxelSize));
+    auto to = grid->getUnsafeAccessor();
+    for (std::size_t n = 0; n < space.table.size(); ++n)
+        space.table.active(n).forEach([&](int v) {
+            const openvdb::Coord voxel = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            for (int k = 0; k < 27; ++k) {
+                const openvdb::Coord at = voxel.offsetBy(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+                const std::int32_t leaf = space.table.find(at);
+                if (leaf < 0 || to.isValueOn(at)) continue;
+                const int place = (at[0] & 7) << 6 | (at[1] & 7) << 3 | (at[2] & 7);
+                to.setValue(at, space.room(std::size_t(leaf), place));
+            }
+        });
+    return grid;
+}
+
 } // namespace
 
 Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options, double voxelSize,
@@ -242,6 +263,7 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
     out.ids =
         voxelGrid<openvdb::Int32Grid>("pocket_id", space, basins, numbers,
                                       [](std::size_t, int, std::int32_t number) { return number; });
+    out.rooms = roomGrid(space);
     out.depths = voxelGrid<openvdb::FloatGrid>(
         "pocket_depth", space, basins, numbers, [&](std::size_t n, int v, std::int32_t) {
             return space.below.leaf(n)[v] + float(options.cut);

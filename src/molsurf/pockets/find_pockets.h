@@ -25,6 +25,8 @@ struct Pockets {
     std::vector<PocketReport> list; ///< the largest first
     openvdb::Int32Grid::Ptr ids;    ///< `pocket_id`: of voxels in pockets their places in the list,
                                     ///< from 1
+    openvdb::FloatGrid::Ptr rooms;  ///< `pocket_room` there and about it: distance to the wall or
+                                    ///< to the cut, negative outside [Å]
     openvdb::FloatGrid::Ptr depths; ///< `pocket_depth` there: below the surface of the large probe
                                     ///< [Å]
 };

@@ -184,7 +184,7 @@ const std::vector<FieldRow>& fieldTable()
         }
         for (auto* more : {densityField, atomField, chainField, groupField, colorField, valueField})
             rows.push_back(more());
-        for (const char* name : {"pocket_id", "pocket_depth"}) { // by addPockets()
+        for (const char* name : {"pocket_id", "pocket_depth", "pocket_room"}) { // by addPockets()
             rows.push_back({name, 1, BySymmetry | InClosedForm | InBricks});
             rows.back().needs = "`pockets`, too";
             rows.back().given = [](const SurfaceOptions& o) { return o.pockets; };

@@ -74,14 +74,13 @@ std::size_t colorPockets(const Pockets& pockets, const Progress& progress, Mesh&
     });
     label.names = {"elsewhere"};
     for (const PocketReport& pocket : pockets.list)
-        label.names.push_back(formatted("%zu: %.0f Å³", label.names.size(), pocket.volume));
-    const std::vector<Color> colors = pocketColors();
+        label.names.push_back(pocketName(label.names.size(), pocket.volume));
     mesh.colors.assign(mesh.positions.size(), neutralColor);
     std::vector<char> seen(pockets.list.size() + 1, 0);
     for (std::size_t v = 0; v < mesh.colors.size(); ++v) {
         const std::int32_t id = label.values[v];
         seen[std::size_t(id)] = 1;
-        if (id > 0) mesh.colors[v] = colors[std::size_t(id - 1) % colors.size()];
+        if (id > 0) mesh.colors[v] = pocketColor(std::size_t(id));
     }
     mesh.labels.push_back(std::move(label));
     return std::size_t(std::count(seen.begin() + 1, seen.end(), 0));
@@ -97,6 +96,17 @@ std::string closedText(std::size_t closed, std::size_t all, SurfaceKind kind)
 }
 
 } // namespace
+
+std::string pocketName(std::size_t number, double volume)
+{
+    return formatted("%zu: %.0f Å³", number, volume);
+}
+
+Color pocketColor(std::size_t number)
+{
+    static const std::vector<Color> colors = pocketColors();
+    return colors[(number - 1) % colors.size()];
+}
 
 bool wantsPockets(const SurfaceOptions& options)
 {
@@ -120,7 +130,7 @@ void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& p
             result.report.warnings.push_back(closedText(closed, found.list.size(), options.kind));
     result.report.pockets = PocketsReport{asked.probeIn, asked.probeOut, asked.cut,
                                           asked.neck,    options.voxel,  std::move(found.list)};
-    const openvdb::GridPtrVec grids = {found.ids, found.depths};
+    const openvdb::GridPtrVec grids = {found.ids, found.depths, found.rooms};
     const bool alone = !options.grid; // for their callers: no file has grids then
     for (const auto& grid : grids)
         if (alone || hasField(options.fields, grid->getName())) result.fields.push_back(grid);

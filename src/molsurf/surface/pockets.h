@@ -4,16 +4,27 @@
 /// @file
 /// The pockets of a molecule as a product of a run.
 
+#include "molsurf/color/color_map.h"
 #include "molsurf/surface.h"
+
+#include <cstddef>
+#include <string>
 
 namespace molsurf
 {
+
+/// What legends call a pocket.
+/// @param[in] number  from 1
+std::string pocketName(std::size_t number, double volume);
+
+/// Its colour. The largest have colours of their own, and the others those again.
+Color pocketColor(std::size_t number);
 
 /// Whether pockets are asked for, or colours by them.
 bool wantsPockets(const SurfaceOptions& options);
 
 /// Puts the pockets of the balls in a report, the grids of them that are asked for in its fields
-/// (both, where it has no other grid),
+/// (all, where it has no other grid),
 /// and, if colours are by pocket, the label `pocket` and colours at the vertices of the mesh.
 /// @param[in] options  that want them
 void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,

@@ -666,7 +666,9 @@ std::vector<Setting> pocketSettings()
     return {
         at,
         pore,
-        flag("pockets", "pockets of the surface, for the report and .pockets.csv",
+        flag("pockets",
+             "pockets of the surface, for the report, .pockets.csv, and a\n"
+             "mesh of each, as by .pockets.ply, .obj, .stl or .glb",
              MOLSURF_OF(options.pockets)),
         number("probe-in", "R", "radius of the probe that gets into pockets [Å], 0.5 to 10",
                of(&Wanted::PocketRule::probeIn)),

@@ -89,9 +89,22 @@ TEST_F(LayerTest, HalfOfTheRaysLookAtWhatIsNear)
     for (std::size_t y = height / 2 - 8; y < height / 2 + 8; ++y)
         for (std::size_t x = width / 2 - 8; x < width / 2 + 8; ++x) {
             EXPECT_NEAR(layers.first.lights[y * width + x].depth, -100.0f, 2.0f);
-            open += layers.first.lights[y * width + x].open / 256.0;
+            open += layers.first.lights[y * width + x].open() / 256.0;
         }
     EXPECT_NEAR(open, (0.5 + 0.9) / 2.0, 0.05); // 0.9 if all rays did, 0.5 if none
+}
+
+TEST_F(LayerTest, ACutLeavesTheRestOfATriangle)
+{
+    addPlate(mesh, -5.0f, 5.0f, 0.0f);
+    for (Vec3f& p : mesh.positions) p[2] = p[0] / 5.0f;
+    addPlate(mesh, -5.0f, 5.0f, 1.5f); // no ray goes there
+    options.clip = 0.0;
+    options.frame = PictureFrame{Vec3d(0.0), 12.0, 1.2};
+    const Layers layers = traced();
+    forEachSample(layers.view, layers.first, [&](const Seen& seen, double x) {
+        EXPECT_EQ(seen.any(), x > -5.0 && x < 0.0) << x;
+    });
 }
 
 TEST_F(LayerTest, PiecesKeepTheirBorders)
@@ -136,7 +149,7 @@ TEST_F(LayerTest, ThinThingsHaveTheirOwnLight)
     for (const PixelLight& light : layers.first.lights) {
         if (light.depth == Seen::nothing) continue;
         ++seen;
-        EXPECT_EQ(light.lit, 0.0f); // it looks away from the lamp; 1 if nobody asked
+        EXPECT_EQ(light.lit(), 0.0f); // it looks away from the lamp; 1 if nobody asked
     }
     EXPECT_EQ(seen, 120);
 }
@@ -155,8 +168,8 @@ TEST_F(LayerTest, AtomsBehindAWallAreNotInItsShadow)
     const std::size_t middle = layers.view.width * (layers.view.height / 2) + layers.view.width / 2;
     const PixelLight& light = layers.behind.lights[middle];
     EXPECT_NEAR(light.depth, 1.0f, 0.02f);
-    EXPECT_EQ(light.open, 1.0f);
-    EXPECT_EQ(light.lit, 1.0f);
+    EXPECT_EQ(light.open(), 1.0f);
+    EXPECT_EQ(light.lit(), 1.0f);
 }
 
 } // namespace

@@ -165,7 +165,9 @@ function paint({ level, geometry, source }, mode, arrays) {
 
 const css = ([r, g, b]) => `rgb(${r},${g},${b})`;
 
-function showLegend(mode) {
+// modes: what layers show alike; bodies: entries of what is inside
+function showLegend(modes, bodies) {
+  const [mode] = modes;
   const legend = byId('legend');
   legend.replaceChildren();
   if (mode.kind === 'scale') {
@@ -184,8 +186,12 @@ function showLegend(mode) {
     unit.textContent = mode.unit;
     legend.append(bar, ends, unit);
   }
-  const missing = mode.missing ? [{ name: 'no value', color: mode.missing }] : [];
-  for (const entry of mode.entries ?? missing) {
+  const rows = new Map(); // each name and colour once
+  for (const { entries, missing } of modes)
+    for (const entry of entries ?? (missing ? [{ name: 'no value', color: missing }] : []))
+      if (entry.seen !== false) rows.set([entry.name, ...entry.color].join(), entry);
+  for (const entry of bodies) rows.set([entry.name, ...entry.color].join(), entry);
+  for (const entry of rows.values()) {
     const row = document.createElement('div');
     row.className = 'entry';
     const patch = document.createElement('i');
@@ -225,6 +231,11 @@ class Owners {
 
   nameOf({ chain, name, place }) {
     return `${chain} ${name} ${place}`;
+  }
+
+  // The residue of a name, if it has one.
+  find(name) {
+    return this.residues.find((residue) => this.nameOf(residue) === name);
   }
 
   // Paints the vertices of a residue.
@@ -576,6 +587,55 @@ class CutColors {
   }
 }
 
+// ---- the layers -----------------------------------------------------------------------------
+
+// A surface of the page, with its colours and atoms.
+class Layer {
+  constructor(header, arrays, material) {
+    this.header = header;
+    this.arrays = arrays;
+    this.name = header.name;
+    this.copies = new Copies(header, arrays, material);
+    this.group = this.copies.group;
+    this.owners = header.names &&
+      new Owners(header.names, arrays, this.copies.parts.map(({ shapes }) => shapes[0]));
+    this.cutColors = new CutColors(header, arrays, this.copies.sphere);
+    if (header.copies.length <= 1) this.copies.fill(this.cutColors.material);
+    if (header.bodies) this.addBodies();
+  }
+
+  // What is seen through the surface.
+  addBodies() {
+    const { bodies } = this.header;
+    const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.55 });
+    const mode = { kind: 'colors', array: 'color' };
+    for (const part of bodies.parts.keys()) {
+      const shape = unpackShape(bodies, part, this.arrays);
+      paint(shape, mode, this.arrays);
+      this.group.add(new Mesh(shape.geometry, material));
+    }
+  }
+
+  // The colours of an id; a layer that has none of them is plain.
+  modeOf(id) {
+    const { modes } = this.header;
+    return modes.find((mode) => mode.id === id) ?? modes[modes.length - 1];
+  }
+}
+
+// Where each of some layers is shown: as wide columns, rows or both, as fits a stage.
+// Returns { left, top, width, height } of each.
+function panesOf(count, width, height) {
+  let best = null;
+  for (let columns = 1; columns <= count; ++columns) {
+    const rows = Math.ceil(count / columns);
+    const side = Math.min(width / columns, height / rows);
+    if (!best || side > best.side) best = { columns, side, width: width / columns, height: height / rows };
+  }
+  return Array.from({ length: count }, (_, n) => ({ ...best,
+    left: (n % best.columns) * best.width, top: Math.floor(n / best.columns) * best.height }));
+}
+
 // ---- the scene ------------------------------------------------------------------------------
 
 const frameTime = 1000 / 30; // that turning may take [ms]
@@ -588,8 +648,10 @@ const mostSorted = 1e6; // triangles, for a drawing at rest
 const keyNames = [['arrows', 'turn'], ['+ \u2212', 'zoom'], ['r', 'reset view'], ['Esc', 'choose nothing'],
   ['?', 'show or hide this'], ['drag', 'turn'], ['wheel', 'zoom'], ['right drag', 'move'], ['click', 'choose a residue']];
 
-function start(header, arrays) {
-  const several = header.copies.length > 1;
+// surfaces: header and arrays of each layer
+function start(surfaces) {
+  const [{ header }] = surfaces;
+  const several = surfaces.some((surface) => surface.header.copies.length > 1);
   const finest = several ? 1 : 0.01; // edges, in pixels
   // Edges are smooth since there are more pixels than on the screen: `antialias` would cost three times as much
   // without a graphics card, where it cannot be left out while the surface turns.
@@ -602,16 +664,24 @@ function start(header, arrays) {
   const scene = new Scene();
   const camera = new PerspectiveCamera(30, 1, 0.1, 1000);
   const material = new MeshStandardMaterial({ vertexColors: true, roughness: 0.55, forceSinglePass: true });
-  const copies = new Copies(header, arrays, material);
-  const axes = header.axes.map((axis) => new Vector3(...axis)); // as pictures of the mesh stand
-  copies.group.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(...axes).transpose());
-  scene.add(copies.group, camera, new AmbientLight(0xffffff, ambient));
+  const layers = surfaces.map((surface) => new Layer(surface.header, surface.arrays, material));
+  const axes = header.axes.map((axis) => new Vector3(...axis)); // as pictures of the first mesh stand
+  const upright = new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(...axes).transpose());
+  for (const { group } of layers) {
+    group.quaternion.copy(upright);
+    scene.add(group);
+  }
+  scene.add(camera, new AmbientLight(0xffffff, ambient));
   const lamp = new DirectionalLight(0xffffff, direct);
   lamp.position.set(...lampPlace);
   camera.add(lamp, lamp.target); // which turn together
 
-  const radius = copies.sphere.radius;
-  const middle = copies.sphere.center.clone().applyQuaternion(copies.group.quaternion);
+  const { center } = layers[0].copies.sphere;
+  const radius = Math.max(...layers.map(({ copies: { sphere } }) => sphere.radius + sphere.center.distanceTo(center)));
+  const middle = center.clone().applyQuaternion(upright);
+  let shown = layers; // all of them side by side, or one
+  const panes = () => panesOf(shown.length, stage.clientWidth, stage.clientHeight);
+  const all = (what) => shown.some(what);
   const controls = new TrackballControls(camera, renderer.domElement);
   controls.rotateSpeed = 3;
   controls.dynamicDampingFactor = 0.25;
@@ -625,23 +695,40 @@ function start(header, arrays) {
     const glass = material.transparent;
     if (renderer.getPixelRatio() !== pixelRatio) renderer.setPixelRatio(pixelRatio);
     scene.updateMatrixWorld();
-    size = copies.choose(camera, stage.clientHeight * ratio, pixels, triangles);
-    if (clipped()) {
-      cut.constant = cutAt();
-      cutColors.draw(cut, camera, copies.group.quaternion, mode, arrays, moved ? coarseCut : fineCut, inside);
+    cut.constant = cutAt();
+    size = 0;
+    crowded = false;
+    let drawn = 0;
+    const share = triangles / shown.length;
+    const height = stage.clientHeight;
+    renderer.setScissorTest(false);
+    renderer.setClearColor(scene.background);
+    renderer.clear(); // what no pane covers
+    renderer.setScissorTest(shown.length > 1);
+    for (const [n, pane] of panes().entries()) {
+      const { copies, cutColors, arrays } = shown[n];
+      for (const layer of layers) layer.group.visible = layer === shown[n];
+      const area = [pane.left, height - pane.top - pane.height, pane.width, pane.height];
+      renderer.setViewport(...area);
+      renderer.setScissor(...area);
+      size = Math.max(size, copies.choose(camera, pane.height * ratio, pixels, share));
+      if (clipped()) cutColors.draw(cut, camera, upright, shown[n].modeOf(mode), arrays, moved ? coarseCut : fineCut, inside);
+      const crowd = moved && slow && copies.seen > manyCopies;
+      crowded ||= crowd;
+      const joined = crowd ? copies.join(0) : glass ? copies.join(Math.min(share, mostSorted)) : null;
+      if (glass) joined.sort(toEye().applyQuaternion(upright.clone().invert()).toArray());
+      copies.show(moved && slow, joined);
+      renderer.render(scene, camera);
+      drawn += renderer.info.render.triangles;
     }
-    crowded = moved && slow && copies.seen > manyCopies;
-    const joined = crowded ? copies.join(0) : glass ? copies.join(Math.min(triangles, mostSorted)) : null;
-    if (glass) joined.sort(toEye().applyQuaternion(copies.group.quaternion.clone().invert()).toArray());
-    copies.show(moved && slow, joined);
-    renderer.render(scene, camera);
     place.copy(camera.position);
     turned.copy(camera.quaternion);
     const { dataset } = document.body; // for tests
-    dataset.triangles = renderer.info.render.triangles;
+    dataset.triangles = drawn;
     dataset.drawn = Number(dataset.drawn ?? 0) + 1;
   };
-  const unfinished = () => several || slow || (clipped() && cutColors.pixels === coarseCut);
+  const unfinished = () => several || slow ||
+    (clipped() && all(({ cutColors }) => cutColors.pixels === coarseCut));
   const toEye = () => camera.position.clone().sub(controls.target).normalize();
   const timed = (...how) => { // waits for the end of the drawing
     const begin = performance.now();
@@ -656,7 +743,7 @@ function start(header, arrays) {
     slow = time > frameTime;
     if (several || !slow) return;
     most = Math.max((most * frameTime) / time, 20000);
-    copies.coarsen(5000);
+    for (const { copies } of layers) copies.coarsen(5000);
     repaint();
   };
   const step = (now) => {
@@ -687,8 +774,15 @@ function start(header, arrays) {
     moved ||= Math.max(way, turned.angleTo(camera.quaternion)) > 5e-4;
   });
 
+  const setAspect = () => {
+    const [{ width, height }] = panes();
+    camera.aspect = width / height;
+    camera.updateProjectionMatrix();
+    moved = true;
+  };
   const reset = () => {
-    const aspect = stage.clientWidth / stage.clientHeight;
+    const [{ width, height }] = panes();
+    const aspect = width / height;
     const angle = (Math.min(1, aspect) * Math.PI * 15) / 180;
     camera.up.set(0, 1, 0);
     camera.position.copy(middle).add(new Vector3(0, 0, radius / Math.sin(angle)));
@@ -702,65 +796,112 @@ function start(header, arrays) {
 
   const setSize = () => {
     if (stage.clientWidth === 0 || stage.clientHeight === 0) return;
-    camera.aspect = stage.clientWidth / stage.clientHeight;
-    camera.updateProjectionMatrix();
     renderer.setSize(stage.clientWidth, stage.clientHeight, false);
     controls.handleResize();
-    moved = true;
+    setAspect();
+    setCaptions();
   };
-  let mode = header.modes[0], chosen = null;
+  let mode = header.modes[0].id, chosen = null; // a residue of all layers, by its name
   const repaint = () => {
-    copies.paint(mode, arrays, (shape) => { if (chosen) owners.mark(shape, chosen); });
+    for (const layer of layers) {
+      const { copies, arrays, owners } = layer, residue = chosen && owners?.find(chosen);
+      copies.paint(layer.modeOf(mode), arrays, (shape) => { if (residue) owners.mark(shape, residue); });
+    }
     moved = true;
   };
-  const setMode = (place) => {
-    mode = header.modes[place];
-    showLegend(mode);
+  const legend = () => { // those that are plain for want of values add nothing
+    const modes = shown.map((layer) => layer.modeOf(mode));
+    const own = modes.filter(({ id }) => id === mode);
+    showLegend(own.length > 0 ? own : modes, shown.flatMap((layer) => layer.header.bodies?.entries ?? []));
+  };
+  const setMode = (id) => {
+    mode = id;
+    legend();
     repaint();
   };
 
+  // The layers: one, or all side by side.
+  const setCaptions = () => {
+    const captions = shown.length > 1 ? panes().map(({ left, top, width }, n) => {
+      const caption = document.createElement('div');
+      caption.textContent = shown[n].name;
+      caption.style.cssText = `left:${left}px;top:${top + 8}px;width:${width}px`;
+      return caption;
+    }) : [];
+    byId('captions').replaceChildren(...captions);
+  };
+  const setLayers = () => {
+    const place = Number(byId('layer').value);
+    shown = place < 0 ? layers : [layers[place]];
+    byId('about').textContent = [...new Set(shown.map((layer) => layer.header.about))].join(' ');
+    setCaptions();
+    setAspect();
+    legend();
+    if (!owners()) return;
+    search(byId('search').value);
+    choose(chosen);
+  };
+  const nextLayer = () => {
+    const { options } = byId('layer');
+    byId('layer').selectedIndex = (options.selectedIndex + 1) % options.length;
+    setLayers();
+  };
+
   // The atoms: what the mouse is over is named, what is clicked is chosen, in the list too.
-  const owners = header.names && new Owners(header.names, arrays, copies.parts.map(({ shapes }) => shapes[0]));
+  const owners = () => shown[0].owners; // those in the list
   const ray = new Raycaster(), mouse = new Vector2(), tip = byId('tip'), list = byId('residues');
+  // The layer under the mouse, and the vertex: null, if there is none that an atom owns.
   const vertexAt = (event) => {
-    const { left, top, width, height } = canvas.getBoundingClientRect();
-    mouse.set((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height);
+    const box = canvas.getBoundingClientRect();
+    const x = event.clientX - box.left, y = event.clientY - box.top;
+    const at = panes().findIndex(({ left, top, width, height }) =>
+      x >= left && x < left + width && y >= top && y < top + height);
+    if (at < 0 || !shown[at].owners) return null;
+    const { left, top, width, height } = panes()[at], layer = shown[at];
+    mouse.set((2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height);
     ray.setFromCamera(mouse, camera);
     let nearest = null;
-    for (const { meshes: [mesh], shapes: [shape] } of copies.parts) {
+    for (const { meshes: [mesh], shapes: [shape] } of layer.copies.parts) {
       if (!several) mesh.count = 1; // whatever is shown in its place
       mesh.boundingSphere = null; // copies have moved
       const hits = ray.intersectObject(mesh, false);
       const hit = hits.find(({ point }) => !clipped() || cut.distanceToPoint(point) >= 0);
       if (hit && !(nearest && nearest.hit.distance < hit.distance)) nearest = { hit, mesh, shape };
     }
-    if (!nearest) return -1;
+    if (!nearest) return null;
     const { hit, mesh, shape } = nearest;
     const point = mesh.worldToLocal(hit.point.clone()), corner = new Vector3();
     const far = [hit.face.a, hit.face.b, hit.face.c].map((v) => [
       corner.fromBufferAttribute(shape.geometry.attributes.position, v).distanceTo(point), v]);
-    return shape.source[far.sort((a, b) => a[0] - b[0])[0][1]];
+    return { layer, vertex: shape.source[far.sort((a, b) => a[0] - b[0])[0][1]] };
   };
-  const textOf = (vertex) => {
+  const textOf = ({ layer, vertex }) => {
+    const { owners, arrays } = layer;
     const { residue, name, area } = owners.atoms[owners.of[vertex]];
-    const value = valueText(mode, vertex, arrays);
+    const value = valueText(layer.modeOf(mode), vertex, arrays);
     return `${owners.nameOf(residue)} ${name}${value ? `, ${value}` : ''}, ${number(area, 1)} of ${number(residue.area, 1)} Å²`;
   };
   let forget = () => {}, remember = () => {}; // the label, while the surface turns
-  const choose = (residue) => {
-    if (!owners) return;
-    chosen = residue;
-    if (residue && !list.querySelector(`option[value="${owners.residues.indexOf(residue)}"]`)) search('');
-    list.value = residue ? owners.residues.indexOf(residue) : '';
-    byId('chosen').textContent = residue ? `${owners.nameOf(residue)}, ${number(residue.area, 1)} Å²` : '';
+  const choose = (name) => {
+    if (!owners()) return;
+    chosen = name;
+    const place = owners().residues.indexOf(owners().find(name));
+    if (place >= 0 && !list.querySelector(`option[value="${place}"]`)) search('');
+    list.value = place >= 0 ? place : '';
+    const areas = shown.map((layer) => {
+      const residue = layer.owners?.find(name);
+      return residue ? `${shown.length > 1 ? `${layer.name} ` : ''}${number(residue.area, 1)} Å²` : '';
+    });
+    byId('chosen').textContent = name ? [name, ...areas.filter(Boolean)].join(', ') : '';
     repaint();
   };
-  if (owners) {
+  const chooseAt = (place) => choose(owners().nameOf(owners().residues[place]));
+  if (owners()) {
     byId('atoms').hidden = false;
-    list.addEventListener('change', () => choose(owners.residues[list.value]));
+    list.addEventListener('change', () => chooseAt(list.value));
     byId('search').addEventListener('input', () => search(byId('search').value));
     byId('search').addEventListener('keydown', (event) => {
-      if (event.key === 'Enter' && list.options.length > 0) choose(owners.residues[list.options[0].value]);
+      if (event.key === 'Enter' && list.options.length > 0) chooseAt(list.options[0].value);
     });
     search('');
     let waits = false, last = null, pressed = null, stale = false;
@@ -775,10 +916,10 @@ function start(header, arrays) {
     const look = () => {
       waits = false;
       if (!last) return;
-      const vertex = last.buttons === 0 ? vertexAt(last) : -1;
-      tip.hidden = vertex < 0;
-      if (vertex < 0) return;
-      tip.textContent = textOf(vertex);
+      const found = last.buttons === 0 ? vertexAt(last) : null;
+      tip.hidden = !found;
+      if (!found) return;
+      tip.textContent = textOf(found);
       const { left, top, width, height } = stage.getBoundingClientRect();
       const x = last.clientX - left, y = last.clientY - top;
       tip.style.left = `${x > width / 2 ? x - tip.offsetWidth - 14 : x + 14}px`;
@@ -796,8 +937,10 @@ function start(header, arrays) {
     canvas.addEventListener('pointerdown', (event) => { pressed = event; });
     canvas.addEventListener('pointerup', (event) => {
       if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > 4) return;
-      const vertex = vertexAt(event);
-      choose(vertex < 0 ? null : owners.atoms[owners.of[vertex]].residue);
+      const found = vertexAt(event);
+      if (!found) return choose(null);
+      const { layer: { owners: own }, vertex } = found;
+      choose(own.nameOf(own.atoms[own.of[vertex]].residue));
     });
   }
 
@@ -805,7 +948,8 @@ function start(header, arrays) {
   function search(text) {
     const words = text.toUpperCase().split(/[\s/]+/).filter(Boolean);
     list.replaceChildren();
-    owners.residues.forEach((residue, i) => {
+    const { residues } = owners();
+    residues.forEach((residue, i) => {
       const parts = [residue.chain, residue.name, residue.place].map((part) => part.toUpperCase());
       const has = (word) => {
         const at = parts.findIndex((part, k) => (k === 1 ? part?.startsWith(word) : part === word));
@@ -813,7 +957,7 @@ function start(header, arrays) {
         return at >= 0;
       };
       const fits = words.every((word) => has(word));
-      if (residue.area > 0 && fits) list.append(new Option(`${owners.nameOf(residue)}  ${number(residue.area, 1)}`, i));
+      if (residue.area > 0 && fits) list.append(new Option(`${owners().nameOf(residue)}  ${number(residue.area, 1)}`, i));
     });
     byId('found').textContent = words.length === 0 ? '' : `${list.options.length} found`;
   }
@@ -825,23 +969,23 @@ function start(header, arrays) {
     cut.normal.copy(toEye()).negate();
     return toEye().dot(middle) + radius * (1 - 2 * Number(byId('clip').value));
   };
-  const cutColors = new CutColors(header, arrays, copies.sphere);
-  cutColors.material.clippingPlanes = [cut];
+  for (const { cutColors } of layers) cutColors.material.clippingPlanes = [cut];
   let inside = [0xb9, 0xbe, 0xc6]; // of what has no colour
-  if (!several) copies.fill(cutColors.material);
+  const walls = [material, ...layers.map(({ copies }) => copies.quick)];
   const setClip = () => {
-    for (const one of [material, copies.quick]) {
+    for (const one of walls) {
       one.clippingPlanes = clipped() ? [cut] : null;
       one.side = one.transparent ? DoubleSide : FrontSide;
       one.needsUpdate = true;
     }
-    copies.insides.visible = clipped() && material.opacity === 1;
+    for (const { copies } of layers) copies.insides.visible = clipped() && material.opacity === 1;
     moved = true;
   };
   const setOpacity = () => {
     const before = material.transparent;
-    material.opacity = copies.quick.uniforms.opacity.value = Number(byId('opacity').value);
-    for (const one of [material, copies.quick]) {
+    material.opacity = Number(byId('opacity').value);
+    for (const { copies } of layers) copies.quick.uniforms.opacity.value = material.opacity;
+    for (const one of walls) {
       one.transparent = material.opacity < 1;
       one.depthWrite = !one.transparent;
     }
@@ -867,11 +1011,20 @@ function start(header, arrays) {
   };
 
   const choice = byId('mode');
-  header.modes.forEach((mode, number) => choice.append(new Option(mode.title, number)));
+  const modes = new Map(); // of all layers, by id
+  for (const layer of layers) for (const { id, title } of layer.header.modes) if (!modes.has(id)) modes.set(id, title);
+  [...modes.values()].forEach((title, number) => choice.append(new Option(title, number)));
   const asked = new URLSearchParams(window.location.search).get('color');
-  const found = header.modes.findIndex((mode) => mode.id === asked);
-  choice.value = Math.max(0, found);
-  choice.addEventListener('change', () => setMode(choice.value));
+  const ids = [...modes.keys()];
+  choice.selectedIndex = Math.max(0, ids.indexOf(asked));
+  choice.addEventListener('change', () => setMode(ids[choice.selectedIndex]));
+  if (layers.length > 1) {
+    const select = byId('layer');
+    select.append(new Option('Side by side', -1), ...layers.map(({ name }, n) => new Option(name, n)));
+    select.hidden = false;
+    select.addEventListener('change', setLayers);
+    keyNames.splice(3, 0, ['s', 'next surface']);
+  }
   byId('dark').addEventListener('change', (event) => setBackground(event.target.checked));
   byId('reset').addEventListener('click', reset);
   new ResizeObserver(setSize).observe(stage);
@@ -903,7 +1056,7 @@ function start(header, arrays) {
   const keys = {
     ArrowLeft: () => rotate(new Vector3(0, 1, 0), -0.1), ArrowRight: () => rotate(new Vector3(0, 1, 0), 0.1),
     ArrowUp: () => rotate(new Vector3(1, 0, 0), -0.1), ArrowDown: () => rotate(new Vector3(1, 0, 0), 0.1),
-    '+': () => zoom(0.9), '-': () => zoom(1 / 0.9), r: reset, Escape: () => choose(null), '?': showKeys,
+    '+': () => zoom(0.9), '-': () => zoom(1 / 0.9), r: reset, s: layers.length > 1 && nextLayer, Escape: () => choose(null), '?': showKeys,
   };
   canvas.addEventListener('keydown', (event) => {
     if (!keys[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -912,11 +1065,13 @@ function start(header, arrays) {
   });
 
   byId('title').textContent = header.title;
-  byId('about').textContent = header.about;
+  byId('about').textContent = [...new Set(layers.map((layer) => layer.header.about))].join(' ');
   setBackground(window.matchMedia('(prefers-color-scheme: dark)').matches);
   setSize();
   reset();
-  setMode(choice.value);
+  setMode(ids[choice.selectedIndex]);
+  byId('opacity').value = header.opacity;
+  setOpacity();
   measure();
   renderer.setAnimationLoop(step);
 }
@@ -925,9 +1080,12 @@ async function main() {
   try {
     const header = JSON.parse(byId('header').textContent);
     const bytes = await unpackBytes(byId('data').textContent);
-    const arrays = {};
-    for (const array of header.arrays) arrays[array.name] = unpackArray(bytes, array);
-    start(header, arrays);
+    start([header, ...header.others].map((layer, n) => {
+      const arrays = {};
+      for (const array of header.arrays)
+        if (array.layer === n) arrays[array.name] = unpackArray(bytes, array);
+      return { header: layer, arrays };
+    }));
     document.body.dataset.state = 'ready';
   } catch (problem) {
     document.body.dataset.state = 'failed';

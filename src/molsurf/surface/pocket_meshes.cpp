@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/pocket_meshes.h"
+
+#include "molsurf/core/cancel.h"
+#include "molsurf/mesh/deviation.h"
+#include "molsurf/mesh/volume_mesher.h"
+#include "molsurf/surface/pockets.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using openvdb::Coord;
+
+template<typename GridT>
+const GridT& fieldOf(const MolecularSurface& result, const char* name)
+{
+    for (const auto& grid : result.fields)
+        if (grid->getName() == name) return dynamic_cast<const GridT&>(*grid);
+    throw std::logic_error(std::string("pockets have no field ") + name);
+}
+
+/// The voxels of each pocket.
+std::vector<std::vector<Coord>> voxelsOf(const openvdb::Int32Grid& ids, std::size_t count)
+{
+    std::vector<std::vector<Coord>> out(count);
+    for (auto voxel = ids.cbeginValueOn(); voxel; ++voxel)
+        out.at(std::size_t(*voxel) - 1).push_back(voxel.getCoord());
+    return out;
+}
+
+/// A field that is negative in one pocket. Where another one begins its room ends: between two
+/// voxels, as far from each as they have room.
+openvdb::FloatGrid::Ptr insideOf(const std::vector<Coord>& own, std::int32_t id,
+                                 const openvdb::Int32Grid& ids, const openvdb::FloatGrid& rooms)
+{
+    const auto out = openvdb::FloatGrid::create(float(rooms.voxelSize()[0]));
+    out->setTransform(rooms.transform().copy());
+    out->setGridClass(openvdb::GRID_LEVEL_SET); // else triangles are seen from inside
+    const auto idAt = ids.getConstUnsafeAccessor();
+    const auto roomAt = rooms.getConstUnsafeAccessor();
+    auto to = out->getUnsafeAccessor();
+    for (const Coord& voxel : own)
+        for (int k = 0; k < 27; ++k) {
+            const Coord at = voxel.offsetBy(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+            const float room = roomAt.getValue(at);
+            to.setValue(at, idAt.getValue(at) == id ? -room : std::abs(room));
+        }
+    return out;
+}
+
+/// Adds the zero set of a field.
+void addBody(const openvdb::FloatGrid& field, Mesh& mesh)
+{
+    openvdb::tools::VolumeToMesh mesher;
+    meshVolume(field, mesher);
+    const auto first = std::uint32_t(mesh.positions.size());
+    for (std::size_t i = 0; i < mesher.pointListSize(); ++i)
+        mesh.positions.emplace_back(mesher.pointList()[i]);
+    const auto squared = [&](std::uint32_t a, std::uint32_t b) {
+        return (mesh.positions[a] - mesh.positions[b]).lengthSqr();
+    };
+    for (std::size_t n = 0; n < mesher.polygonPoolListSize(); ++n) {
+        const auto& pool = mesher.polygonPoolList()[n];
+        for (std::size_t i = 0; i < pool.numQuads(); ++i) {
+            // OpenVDB's polygons run clockwise seen from outside.
+            const auto& q = pool.quad(i);
+            const std::uint32_t a = first + q[3], b = first + q[2], c = first + q[1],
+                                d = first + q[0];
+            const bool byAC = squared(a, c) <= squared(b, d);
+            mesh.triangles.push_back(byAC ? std::array{a, b, c} : std::array{a, b, d});
+            mesh.triangles.push_back(byAC ? std::array{a, c, d} : std::array{b, c, d});
+        }
+    }
+}
+
+} // namespace
+
+Mesh pocketBodies(const MolecularSurface& result, const Progress& progress)
+{
+    const auto& list = result.report.pockets->list;
+    const auto& ids = fieldOf<openvdb::Int32Grid>(result, "pocket_id");
+    const auto& rooms = fieldOf<openvdb::FloatGrid>(result, "pocket_room");
+    const std::vector<std::vector<Coord>> voxels = voxelsOf(ids, list.size());
+    Mesh mesh;
+    for (std::size_t p = 0; p < list.size(); ++p) {
+        stopIfCancelled(progress);
+        mesh.parts.push_back({pocketName(p + 1, list[p].volume), mesh.triangles.size()});
+        addBody(*insideOf(voxels[p], std::int32_t(p + 1), ids, rooms), mesh);
+        mesh.colors.resize(mesh.positions.size(), pocketColor(p + 1));
+    }
+    mesh.normals = vertexNormals(mesh);
+    return mesh;
+}
+
+} // namespace molsurf

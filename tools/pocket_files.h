@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The bodies of pockets, in files of their own and in pictures and pages.
+
+#include "cli/call.h"
+
+#include "molsurf/surface.h"
+
+namespace molsurf::tool
+{
+
+/// Whether files or pictures of a call have them.
+bool wantsBodies(const Call& call);
+
+/// The options with the fields that bodies are made of.
+SurfaceOptions withBodies(const Call& call);
+
+/// Makes the bodies, and drops the fields that were wanted for them alone.
+/// @param[in,out] result  by withBodies()
+Mesh takeBodies(const Call& call, const Progress& progress, MolecularSurface& result);
+
+/// Puts a file for each pocket, NAME.pocket1.ply, in the place of NAME.pockets.ply.
+/// @throws Error(ErrorKind::Output) if another output has that name
+void numberOutputs(std::size_t count, Call& call);
+
+/// The name of such a file.
+std::string numberedPath(const Output& output, std::size_t number);
+
+} // namespace molsurf::tool
