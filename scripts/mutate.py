@@ -10,8 +10,9 @@ a part of the names of those to try; without one all are. Everything happens in 
 build folder of its own, so that the tree itself is never touched; the copy stays there for the next time.
 
 First all tests that are named have to pass without a mutation. Each mutation is then killed (a test fails, or does
-not end in time), survives, or does not compile. The exit status is 0 if all are killed, 1 if not, and 2 if the list
-is wrong: --check only looks whether every text is in its file, and once.
+not end in time), survives, or does not compile. Those of a file follow each other, since the file is compiled once
+more when another one's turn comes. The last line names those that were not killed. The exit status is 0 if all are
+killed, 1 if not, and 2 if the list is wrong: --check only looks whether every text is in its file, and once.
 """
 
 import argparse
@@ -127,7 +128,8 @@ def main():
     print(f"mutations: {len(mutations)}, 0 faults", flush=True)
     if args.check:
         return
-    chosen = [m for m in mutations if not args.names or any(name in m["name"] for name in args.names)]
+    chosen = sorted((m for m in mutations if not args.names or any(name in m["name"] for name in args.names)),
+                    key=lambda m: m["file"])
     if not chosen:
         sys.exit(f"no mutation has {' or '.join(args.names)} in its name")
 
@@ -144,13 +146,14 @@ def main():
     if broken := failing(folder, "|".join(sorted({m["tests"] for m in chosen})), args.parallel):
         sys.exit(f"without a mutation fails: {', '.join(broken)}")
 
-    alive = 0
+    alive = []
     for mutation in chosen:
         start = time.monotonic()
         verdict, detail = attempt(folder, mutation, args.parallel)
-        alive += verdict != "killed"
+        if verdict != "killed":
+            alive.append(mutation["name"])
         print(f"{verdict:9} {mutation['name']} ({time.monotonic() - start:.0f} s): {detail}", flush=True)
-    print(f"{len(chosen) - alive} of {len(chosen)} killed")
+    print(f"{len(chosen) - len(alive)} of {len(chosen)} killed" + (f", not {'; '.join(alive)}" if alive else ""))
     sys.exit(1 if alive else 0)
 
 

@@ -236,6 +236,25 @@ class Batch(ToolTest):
             (self.folder / "r").write_text(f"* {radius}\n")
             self.batch(status, "--radii", "r", "--formats", "json", says=says)
 
+    def test_surfaces_of_another_version_are_not_mixed_in(self):
+        (self.folder / "list").write_text(f"{CRAMBIN}\n")
+        self.batch(0, "--formats", "json")
+        journal = self.folder / "out" / "summary.jsonl"
+        header, rest = journal.read_text().split("\n", 1)
+        version = json.loads(header)["version"]
+        journal.write_text(header.replace(f'"{version}"', '"0.0.1"') + "\n" + rest)
+        self.batch(1, "--formats", "json", says=["holds surfaces with other options", "version 0.0.1"])
+
+    def test_what_another_run_has_begun_is_in_no_table(self):
+        (self.folder / "list").write_text(f"{CRAMBIN}\n")
+        self.batch(0, "--formats", "json")
+        journal = self.folder / "out" / "summary.jsonl"
+        lines = journal.read_text().splitlines()
+        begun = next(line for line in lines if '"begun"' in line)
+        journal.write_text("\n".join([*lines, begun.replace("1crn", "2crn")]) + "\n")
+        self.batch(0, "--formats", "json", says="1 done before")
+        self.assertEqual([row["status"] for row in self.table()], ["done"])
+
     def test_not_converged(self):
         (self.folder / "list").write_text(f"{CRAMBIN}\n")
         self.batch(3, "--flow", "newton", "--max-steps", "1", "--formats", "json", says="1 not converged")

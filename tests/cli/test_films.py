@@ -94,6 +94,17 @@ class Films(ToolTest):
         self.check(1, *words, says="exists already", env=self.env)
         self.check(0, *words, "--force", env=self.env)
 
+    def test_frames_show_all_atoms_of_show(self):
+        line = "HETATM{:5}  C   XXX A{:4}    {:8.3f}   0.000   0.000  1.00  0.00           C\n"
+        (self.folder / "m.pdb").write_text("".join(
+            f"MODEL {n}\n" + line.format(1, 1, 0.0) + line.format(2, 2, 20.0 + n) + "ENDMDL\n" for n in (1, 2)))
+        self.check(0, "m.pdb", *FAST, "--surface", "vdw", "--select", "A/1", "--show", "A/2=spheres", "--frames", "all",
+                   "--view", "0,0,1", "--size", 200, "--legend", "off", "-o", "a.png", "-o", "a.csv")
+        for n in (1, 2):
+            width, rows = read_png((self.folder / f"a.000{n}.png").read_bytes())
+            ink = [any(row[3 * x + k] < 250 for row in rows for k in range(3)) for x in range(width)]
+            self.assertEqual(sum(b and not a for a, b in zip([False, *ink], ink)), 2)
+
     def test_frames_have_one_legend(self):
         for color in ("bfactor", "mean-curvature"):
             self.check(0, *self.moving(), "--color", color, "--size", 600, "-o", "a.mp4", "--force", env=self.env)

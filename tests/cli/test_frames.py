@@ -91,6 +91,10 @@ class Frames(ToolTest):
         self.assertEqual(numbers[0], numbers[1])
         changed = [str(i + 1) for i in range(1, 10) if numbers[i] != numbers[i - 1]]
         self.assertIn(f"another than that before in frames {', '.join(changed)}\n", said)
+        # Also after frames that are kept.
+        (self.folder / f"a.{int(changed[0]):04}.ply").unlink()
+        self.check(0, NMR, "--surface", "sas", "--voxel", "2", "--frames", "all", "-o", "a.ply", "-o", "a.csv",
+                   says=["9 done before", f"another than that before in frames {changed[0]}\n"])
 
     def test_frames_are_the_runs(self):
         """Bit for bit, meshes and numbers."""
@@ -294,6 +298,9 @@ class Frames(ToolTest):
         for file in (1, 2, 3):
             self.assertEqual((self.folder / f"a.000{file}.ply").read_bytes(),
                              (self.folder / f"b.000{file}.ply").read_bytes())
+        # A frame of which a file is missing is not done.
+        (self.folder / "a.0003.ply").unlink()
+        self.check(1, *words, "--frames", "1-3", says="a.0003.vdb: it exists already")
         # What is there is never taken for something else.
         self.check(1, *words, "--frames", "1-3", "--probe", "1.5", says=["a.0001.vdb", "--force"])
         self.check(1, *words, "--frames", "2-3", says=["a.0001.vdb", "--force"])

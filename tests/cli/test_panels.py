@@ -81,6 +81,16 @@ class Panels(ToolTest):
         self.assertLess(widths[1], 0.5 * widths[0])
         self.check(0, DATA / "4at1.ent.gz", "--panel", DATA / "1ubq.pdb", "--voxel", 2, "--show", "(ZN)=spheres", "--label", "B/(ZN)=zinc",
                    "--size", 300, "-o", "b.png", says="1ubq.pdb: PDB")
+        self.check(0, DATA / "4at1.ent.gz", "--panel", DATA / "1ubq.pdb", "--voxel", 2, "--view", "B/(ZN)", "--size", 300, "-o", "c.png")
+
+    def test_notes_are_of_the_atoms_of_each(self):
+        self.rod("a.pdb", 16)
+        self.rod("b.pdb", 16, chain="B")
+        words = ["a.pdb", "--panel", "b.pdb", "--view", "0,0,1", "--size", 600, "--legend", "off"]
+        plain, named = self.picture(*words), self.picture(*words, "--label", "A/1=here")
+        halves = [[[row[side:side + 300] for row in rows] for rows in (plain, named)] for side in (0, 300)]
+        self.assertNotEqual(*halves[0])
+        self.assertEqual(*halves[1])
 
     def test_analyses_of_the_first_alone(self):
         """What the first structure is asked for beside its picture is no matter of the panel, which may not have it."""

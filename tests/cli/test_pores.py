@@ -7,7 +7,7 @@ import math
 import unittest
 import xml.dom.minidom
 
-from tool import DATA, ToolTest
+from tool import DATA, ToolTest, read_ply
 
 GRAMICIDIN = DATA / "1grm.pdb.gz"
 ENDS = "0,-12.5,3 -> 0.06,12.5,3"
@@ -42,13 +42,20 @@ class Pores(ToolTest):
         each = [1 / (math.pi * r * r) for r in radii]
         sum_ = sum((b - a) * (f + g) / 2 for a, b, f, g in zip(places, places[1:], each, each[1:]))
         self.assertAlmostEqual(report["conductance"], 1e12 / (0.0898 * sum_ * 1e10), places=6)
-        self.assertIn(b"property float radius", (self.folder / "a.pore.ply").read_bytes())
+        names, vertices, triangles = read_ply((self.folder / "a.pore.ply").read_bytes())
+        self.assertIn("radius", names)
+        edges = {(t[k], t[k - 1]) for t in triangles for k in range(3)}
+        self.assertEqual(len(edges), 3 * len(triangles))
+        self.assertEqual(edges, {(b, a) for a, b in edges})  # closed, and turned alike
         xml.dom.minidom.parse(str(self.folder / "a.pore.svg"))
 
     def test_it_is_found_by_itself_and_along_an_axis(self):
         for way in ((), ("--pore", "auto"), ("--pore", "y")):
             self.check(0, GRAMICIDIN, "--radii", "hole.radii", *way, "-o", "b.pore.csv", "--force")
-            self.assertAlmostEqual(min(float(row["radius_A"]) for row in self.table("b.pore.csv")[1]), 1.1996, delta=0.0005)
+            rows = self.table("b.pore.csv")[1]
+            self.assertAlmostEqual(min(float(row["radius_A"]) for row in rows), 1.1996, delta=0.0005)
+        for row in rows:
+            self.assertAlmostEqual(float(row["height_A"]), float(row["y_A"]), places=6)
 
     def test_threads_do_not_matter(self):
         for threads in (1, 2):
@@ -68,6 +75,22 @@ class Pores(ToolTest):
         self.check(0, DATA / "1d3z.pdb.gz", "--frames", "1-2", "--pore", "resid 30 -> resid 50", "-o", "f.pore.csv")
         lines = (self.folder / "f.pore.csv").read_text().splitlines()
         self.assertEqual({line.split(",")[0] for line in lines}, {"frame", "1", "2"})
+
+    def test_ends_by_selections_are_of_the_model(self):
+        line = "ATOM  %5d  C   ALA A%4d    %8.3f%8.3f%8.3f  1.00  0.00           C\n"
+        text = ""
+        for model, away in ((1, 0), (2, 100)):
+            text += f"MODEL {model:8}\n"
+            for n, z in enumerate(range(-6, 7, 2)):
+                for k in range(12):
+                    angle = k * math.pi / 6
+                    text += line % (12 * n + k + 1, n + 1, away + 4.3 * math.cos(angle), 4.3 * math.sin(angle), z)
+            text += "ENDMDL\n"
+        (self.folder / "two.pdb").write_text(text)
+        for model, away in ((1, 0), (2, 100)):
+            self.check(0, "two.pdb", "--model", model, "--pore", "resid 1 -> resid 7", "-o", "m.pore.csv", "--force")
+            for row in self.table("m.pore.csv")[1]:
+                self.assertAlmostEqual(float(row["x_A"]), away, delta=0.5)
 
     def test_frames_without_a_pore_have_no_rows(self):
         rings = [(4.3 * math.cos(k * math.pi / 6), 4.3 * math.sin(k * math.pi / 6), z) for z in range(-6, 7, 2) for k in range(12)]

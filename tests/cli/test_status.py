@@ -80,6 +80,7 @@ class SkipExisting(ToolTest):
         self.assertTrue(self.make(source, *self.WORDS))
         self.assertFalse(self.make(source, *self.WORDS, "-j", 1, "-v", "--memory", "4G", "--max-hours", "9"))
         self.assertTrue(self.make(source, *self.WORDS, "--probe", "1.5"), "other options")
+        self.assertTrue(self.make(source, *self.WORDS), "as before")
         shutil.copy(DATA / "1ubq.pdb", source)
         self.assertTrue(self.make(source, *self.WORDS), "another input")
         (self.folder / "a.ply").unlink()

@@ -3,6 +3,7 @@
 
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/mesh_shape.h"
+#include "molsurf/mesh/size_field.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>
@@ -44,6 +45,16 @@ Remeshed remeshed(
     out.residual = remesh(spline, voxel, target, kept, vertices, Progress());
     out.shape = shapeOf(out.mesh, Progress());
     return out;
+}
+
+// Of a sphere, of a saddle and of cylinders about either side.
+TEST(SizeField, ACreviceIsAsBentAsARidge)
+{
+    for (const float side : {1.0f, -1.0f}) {
+        EXPECT_FLOAT_EQ(SizeField::bend(0.5f * side, 0.25f), 0.5f);
+        EXPECT_FLOAT_EQ(SizeField::bend(0.5f * side, 0.0f), 1.0f);
+        EXPECT_FLOAT_EQ(SizeField::bend(0.25f * side, -0.5f), 1.0f);
+    }
 }
 
 /// Expects vertices on the surface, with its normals and curvatures, and a closed manifold.

@@ -124,6 +124,20 @@ TEST(AtomModel, BondsOfTheFile)
     EXPECT_EQ(partsOf(atomModel({shown}, Progress()))[1], 2 * (bonds - 1)); // CA-CB is none there
 }
 
+// The copies of an assembly have the bonds of their atoms in the file.
+TEST(AtomModel, BondsOfTheFileInACopy)
+{
+    ShownAtoms shown{atomsOf("/1/A/1/N,CB"), parseShow("sticks"), nullptr};
+    shown.atoms.names->residues[0].name = "XXX";
+    const auto bonds = std::make_shared<FileBonds>();
+    bonds->links.push_back({{"A", 1, ' ', "N"}, {"A", 1, ' ', "CB"}}); // 2.5 Å
+    shown.bonds = bonds;
+    for (const auto& [chain, sticks] : {std::pair("A", 2), {"A-2", 2}, {"B-2", 0}}) {
+        shown.atoms.names->residues[0].labelChain = chain;
+        EXPECT_EQ(partsOf(atomModel({shown}, Progress()))[1], sticks) << chain;
+    }
+}
+
 // What a file joins is no longer than 3 Å either.
 TEST(AtomModel, NoBondIsLonger)
 {

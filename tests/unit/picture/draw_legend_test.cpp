@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/draw_legend.h"
 
+#include "molsurf/picture/font.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -104,6 +106,34 @@ TEST(ScaleBar, IsAsLongAsItSays)
             }
         }
         EXPECT_EQ(longest, c.length) << c.pixel;
+    }
+}
+
+/// From the first column from x on that is darker than paper to the last [pixel].
+int inkFrom(const Picture& picture, int x, int top)
+{
+    int first = picture.width, last = 0;
+    for (int y = top; y < picture.height; ++y)
+        for (int at = x; at < picture.width; ++at)
+            if (picture.rgb[3 * std::size_t(y * picture.width + at)] < 250) {
+                first = std::min(first, at);
+                last = std::max(last, at);
+            }
+    return last - first;
+}
+
+// From 100 Å on its length is in nm.
+TEST(ScaleBar, SaysItsLengthInItsUnit)
+{
+    for (const auto& [pixel, text] :
+         {std::pair(0.25, "50 \xC3\x85"), {0.5, "10 nm"}, {1.0, "20 nm"}}) {
+        Picture picture = blank(1000, 50), written = blank(1000, 50);
+        picture.pixel = pixel;
+        const Font font(letterHeight(1000));
+        font.draw(text, 100, 40, Color{30, 33, 38}, written);
+        const int end = 200 + letterHeight(1000) / 2 + 1; // of the bar
+        EXPECT_EQ(inkFrom(withScaleBar(picture, 1000, background), end, 50), inkFrom(written, 0, 0))
+            << text;
     }
 }
 

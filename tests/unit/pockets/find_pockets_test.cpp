@@ -111,6 +111,21 @@ TEST(FindPockets, ADumbBellIsTwoIfItsNeckIsNarrow)
     EXPECT_EQ(pocketsOf(narrow, 0.5, together).size(), 1u);
 }
 
+// A closed room is open by the one before it, into which a narrow tunnel leads.
+TEST(FindPockets, ARoomBehindAnotherIsOpen)
+{
+    const auto pockets =
+        pocketsOf(boxWith(Vec3d(13.0, 7.0, 7.0),
+                          [](const Vec3d& x) {
+                              return largest(Vec3d(std::abs(x[0]) - 6.5, x[1], x[2])) < 4.5 ||
+                                     inTunnel(x, 3.0, -5.0);
+                          }),
+                  0.5);
+    ASSERT_EQ(pockets.size(), 2u);
+    EXPECT_NE(pockets[0].mouths.empty(), pockets[1].mouths.empty());
+    EXPECT_TRUE(pockets[0].open && pockets[1].open);
+}
+
 TEST(FindPockets, MouthsAreCounted)
 {
     const auto open = [](bool second) {
@@ -163,10 +178,14 @@ TEST(FindPockets, TheCutLeavesShallowPlacesOut)
 // A large probe fits into the void but does not get there from outside.
 TEST(FindPockets, AVoidForTheLargeProbeIsOne)
 {
-    const auto balls = boxWith(Vec3d(10.0), [](const Vec3d& x) { return x.length() < 7.0; });
-    const auto pockets = pocketsOf(balls, 0.6);
-    ASSERT_EQ(pockets.size(), 1u);
-    EXPECT_NEAR(pockets[0].volume, cavityVolume(balls), 1e-9);
+    // Whether it lies amid the cubes of voxels or between them.
+    for (const Vec3d& middle : {Vec3d(0.0), Vec3d(1.0)}) {
+        const auto balls =
+            boxWith(Vec3d(10.0), [&](const Vec3d& x) { return (x - middle).length() < 7.0; });
+        const auto pockets = pocketsOf(balls, 0.6);
+        ASSERT_EQ(pockets.size(), 1u);
+        EXPECT_NEAR(pockets[0].volume, cavityVolume(balls), 1e-9);
+    }
 }
 
 TEST(FindPockets, OnlyThatAtSomePlaces)

@@ -104,6 +104,37 @@ std::vector<Ball> plugged(const Tube& tube, double radius)
     return balls;
 }
 
+// Of places that are as narrow as each other, with nothing wider between, the first is the neck.
+TEST(FindPore, ALevelNeckIsOneBottleneck)
+{
+    std::vector<Ball> balls;
+    for (double h = -6.0; h <= 6.0; h += 1.0)
+        for (int k = 0; k < 12; ++k) {
+            const double angle = turn * k / 12;
+            balls.push_back({Vec3d(4.3 * std::cos(angle), 4.3 * std::sin(angle), h), 2.35,
+                             std::int32_t(balls.size())});
+        }
+    const Vec3d end(0.0, 0.0, 8.0);
+    const Report::Pore pore = findPore(balls, {{{-end, true}, {end, true}}, Vec3d(0.0)}, nobody);
+    EXPECT_EQ(std::count_if(pore.stations.begin(), pore.stations.end(),
+                            [](const auto& s) { return s.isBottleneck; }),
+              1);
+}
+
+// Of a wide tunnel along the longest axis and a narrow one along the shortest it is the wide one.
+TEST(FindPore, ByItselfItIsTheWidestWayOfAllAxes)
+{
+    std::vector<Ball> balls;
+    for (double x = -9.0; x <= 9.0; x += 1.0)
+        for (double y = -8.0; y <= 8.0; y += 1.0)
+            for (double z = -5.0; z <= 5.0; z += 1.0)
+                if (std::hypot(y + 3.0, z) > 3.8 && std::hypot(x, y - 4.0) > 2.8)
+                    balls.push_back({Vec3d(x, y, z), 1.5, std::int32_t(balls.size())});
+    const Report::Pore pore = findPore(balls, {}, nobody);
+    EXPECT_GT(std::abs(pore.axis[0]), 0.9);
+    EXPECT_NEAR(pore.narrowest(), 4.0 - 1.5, 0.1);
+}
+
 // Also where a pore narrows fast: at a ball in it, at its mouths.
 TEST(FindPore, EveryRadiusIsTheClearanceOfItsPlace)
 {
@@ -236,6 +267,23 @@ TEST(FindPore, RefusesWhatHasNoWay)
         findPore(balls, {{{tube.at(2.9, 0.0, -6.0), false}, {middle, true}}, Vec3d(0.0)}, nobody)
             .narrowest(),
         2.3, 0.05);
+}
+
+TEST(FindPore, SaysWhereTheWayLeavesFirst)
+{
+    const Tube tube{[](double) { return 4.0; }, 16, 1.7, 9.0, Vec3d(0.0, 0.0, 1.0), Vec3d(0.0)};
+    try {
+        findPore(tube.balls(),
+                 {{{Vec3d(25.0, 0.0, -9.0), true}, {Vec3d(25.0, 0.0, 9.0), true}}, Vec3d(0.0)},
+                 nobody);
+        FAIL() << "expected an Error";
+    } catch (const Error& error) {
+        const std::string text = error.what(), before = "leaves it at (";
+        const std::size_t begin = text.find(before),
+                          last = text.find(", ", text.find(", ", begin) + 1);
+        ASSERT_NE(begin, std::string::npos) << text;
+        EXPECT_LT(std::stod(text.substr(last + 2)), 0.0) << text;
+    }
 }
 
 // However far the nearest ball is, and whatever the class of its radius.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/select_balls.h"
@@ -131,6 +132,23 @@ TEST(Labels, GroupsByChainEntityCopyAndResidues)
     for (const char* bad : {"colour", "residues:", "residues:0", "residues:-3", "residues:2x"}) {
         EXPECT_THROW(parseGroupBy(bad), Error) << bad;
     }
+}
+
+// Blocks go on below 1 as above.
+TEST(Labels, BlocksOfResiduesBelowOne)
+{
+    std::string text;
+    const std::array<int, 6> numbers = {-10, -9, 0, 1, 10, 11};
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        text +=
+            formatted("ATOM  %5zu  CA  GLY A%4d    %8.3f   0.000   0.000  1.00  0.00           C\n",
+                      i + 1, numbers[i], 4.0 * double(i));
+    SelectOptions options;
+    options.groupBy = parseGroupBy("residues:10");
+    const BallSet atoms = selectBalls(parseStructure(text + "END\n", "a.pdb"), options);
+    std::vector<std::string> names;
+    for (const Group& group : atoms.labels->groups) names.push_back(group.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"A/-19--10", "A/-9-0", "A/1-10", "A/11-20"}));
 }
 
 TEST(Labels, LaterRulesWinAndSaySo)

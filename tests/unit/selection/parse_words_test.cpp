@@ -257,6 +257,24 @@ TEST(Words, AreSettledByTheFirstModel)
     EXPECT_EQ(other.settled.at(options.select), own.atoms);
 }
 
+// Whichever model is asked for: all others have its atoms.
+TEST(Words, AreSettledByALaterModel)
+{
+    Structure s = readStructure(dataFile("1d3z.pdb.gz"));
+    const Model own = s.models[3];
+    SelectOptions options;
+    options.select = "chain A within 4 of resid 3";
+    const std::vector<char> before = matchAtoms(s, options.select).atoms;
+    settleSelections(options, own, s);
+    const std::vector<char>& after = s.settled.at(options.select);
+    const auto from = [](const std::vector<char>& atoms, const Model& model) {
+        return std::vector<char>(atoms.begin() + std::ptrdiff_t(model.begin),
+                                 atoms.begin() + std::ptrdiff_t(model.end));
+    };
+    EXPECT_NE(from(before, s.models[0]), from(before, own));
+    for (const Model& model : s.models) EXPECT_EQ(from(after, model), from(before, own));
+}
+
 TEST(Words, RefuseDistancesWhereAtomsAreFarAway)
 {
     Structure s = codes();

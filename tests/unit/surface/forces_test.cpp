@@ -136,6 +136,9 @@ TEST(SmoothForces, AreRefusedWhereNothingKnowsThem)
             EXPECT_EQ(e.kind(), ErrorKind::Usage);
         }
     }
+    BallSet unit = sixBalls(); // whose neighbours are its images
+    unit.placement.instances.resize(2);
+    EXPECT_THROW(surfaceGradients(unit, {}, Mesh()), Error);
 }
 
 } // namespace

@@ -97,6 +97,24 @@ TEST(PoseError, OfWhatIsTooSmallForTwiceTheVoxelIsFoundOnTheSame)
     EXPECT_EQ(made.report.warnings.size(), 1u);
 }
 
+// Of a surface that has not come to rest the flow may know a larger one.
+TEST(PoseError, DoesNotHideALargerOne)
+{
+    BallSet atoms;
+    atoms.balls = {{{0.1, 0.2, 0.3}, 1.7, 0}};
+    const SurfaceOptions options = withLambda(0.1);
+    Report report = makeSurface(atoms, options).report;
+    Progress progress;
+    for (const double known : {0.9, std::nan("")}) {
+        report.evolution->areaError = known;
+        estimatePoseError(atoms, options, progress, report);
+        if (std::isnan(known))
+            EXPECT_LT(report.evolution->areaError, 0.5);
+        else
+            EXPECT_EQ(report.evolution->areaError, known);
+    }
+}
+
 TEST(PoseError, IsNotAskedForBelow)
 {
     const MolecularSurface made = makeSurface({{{0.1, 0.2, 0.3}, 1.7, 0}}, withLambda(0.04));

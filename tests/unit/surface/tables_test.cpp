@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <numeric>
 
@@ -73,6 +74,19 @@ TEST(Tables, OfAtomsAndResiduesAddUpToTheArea)
         EXPECT_TRUE(share >= 0.0 && share < 1.5) << share;
 }
 
+// An ion of calcium is named as the CA of an amino acid.
+TEST(Tables, OfResiduesHaveADepthOfCarbonsAlone)
+{
+    BallSet atoms = named("1crn.pdb");
+    const std::int32_t first = atoms.names->residueOf[0];
+    for (std::size_t i = 0; atoms.names->residueOf[i] == first; ++i)
+        if (atoms.names->atoms[i].name == "CA") atoms.names->atoms[i].element = 20;
+    const std::vector<double> depths =
+        column<double>(residueTable(atoms, 1.4, makeSurface(atoms, exact())), "ca_depth_A");
+    EXPECT_TRUE(std::isnan(depths[0]));
+    EXPECT_GT(depths[1], 0.0);
+}
+
 TEST(Tables, OfContactsHaveALevel)
 {
     const BallSet atoms = named("1a8o.cif.gz");
@@ -89,6 +103,26 @@ TEST(Tables, OfContactsHaveALevel)
         column<std::string>(contactTable(atoms, ContactLevel::Residue, result), "residue_2").size(),
         100u);
     EXPECT_TRUE(column<double>(contactTable(atoms, ContactLevel::Chain, result), "area").empty());
+}
+
+TEST(Tables, OfAPocketWeighItsWallAndNameItsWidestMouth)
+{
+    const BallSet atoms = named("1crn.pdb");
+    const auto ballOf = [&](int number) {
+        std::size_t i = 0;
+        while (atoms.names->residues[std::size_t(atoms.names->residueOf[i])].number != number) ++i;
+        return i;
+    };
+    PocketsReport::Pocket pocket;
+    pocket.lining = {{ballOf(1), 30.0}, {ballOf(3), 10.0}}; // of THR and CYS
+    pocket.mouths = {{9.0, 2.5}, {4.0, 1.5}};
+    PocketsReport report;
+    report.list = {pocket};
+    const Table table = report.table(atoms);
+    EXPECT_NEAR(column<double>(table, "hydrophobicity")[0], (30.0 * -0.7 + 10.0 * 2.5) / 40.0,
+                1e-6);
+    EXPECT_EQ(column<double>(table, "mouth_radius_A")[0], 2.5);
+    EXPECT_EQ(column<double>(table, "mouth_area")[0], 13.0);
 }
 
 TEST(Tables, SayWhatTheyLack)
