@@ -265,7 +265,7 @@ TEST(Words, AreSettledByALaterModel)
     SelectOptions options;
     options.select = "chain A within 4 of resid 3";
     const std::vector<char> before = matchAtoms(s, options.select).atoms;
-    settleSelections(options, own, s);
+    resolveSelections(options, own, s);
     const std::vector<char>& after = s.settled.at(options.select);
     const auto from = [](const std::vector<char>& atoms, const Model& model) {
         return std::vector<char>(atoms.begin() + std::ptrdiff_t(model.begin),
