@@ -39,9 +39,10 @@ def prose(page):
 
 
 def promised(block):
-    """The files that a block writes; of frames the first."""
+    """The files that a block writes; of frames and of meshes of pockets the first."""
     words = shlex.split(block.replace("\\\n", " ").replace(";", " ;"), comments=True)
     files = [after for word, after in zip(words, words[1:]) if word in ("-o", ">", "2>")]
+    files = [re.sub(r"\.pockets\.(ply|obj|stl|off|vtk|glb)$", r".pocket1.\1", name) for name in files]
     if "--frames" in words:
         first = int(words[words.index("--first-frame") + 1]) if "--first-frame" in words else 1
         files = [re.sub(r"(?<!\.pockets)\.(?!(?:csv|gif|mp4|webm)$)(\w+)$", rf".{first:04}.\1", name) for name in files]
