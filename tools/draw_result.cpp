@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "draw_result.h"
 
+#include "bricks.h"
 #include "outputs.h"
 #include "verbs.h"
 
@@ -11,6 +12,7 @@
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/panels.h"
 #include "molsurf/picture/view.h"
+#include "molsurf/picture/view_file.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
