@@ -15,6 +15,7 @@
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/panels.h"
 #include "molsurf/picture/view.h"
+#include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/run.h"
