@@ -252,7 +252,7 @@ class Values(ToolTest):
         self.apart(["ALA", "GLY", "SER"])
         self.write("t.csv", "chain,residue,value\n# conservation\nA,1,0.25\nA,3,CA,1.0\nB,7,2\n")
         self.check(0, "a.pdb", *FAST, "--color", "table=t.csv", "--range", "0,1", "-o", "a.ply",
-                   "-o", "a.glb", "-o", "a.html", says="as of B 7")
+                   "-o", "a.glb", "-o", "a.html", says=["as of B 7", "atoms have none and are pale green"])
         found = self.vertices("a.ply", "value")
         self.assertEqual(self.at(found, 0.0)[0], {0.25})
         self.assertEqual(self.at(found, 20.0), ({1.0}, {(253, 231, 37)}))

@@ -324,7 +324,8 @@ void judge(const SelectOptions::Coloring& coloring, bool spreads, bool signedRan
     if (values.byPoint() && !spreads) return;
     if (none > 0 && none < values.valueOf.size())
         warnings.push_back(values.title + ": " + std::to_string(none) + " of " +
-                           std::to_string(values.valueOf.size()) + " atoms have none and are grey");
+                           std::to_string(values.valueOf.size()) +
+                           " atoms have none and are pale green");
     if (coloring.range) {
         values.low = (*coloring.range)[0];
         values.high = (*coloring.range)[1];
