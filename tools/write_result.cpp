@@ -354,11 +354,24 @@ Mesh tubeOf(const Writing& w)
     return tube;
 }
 
+/// Writes a mesh beside that of the surface, by the last ending of its format.
+void writeBeside(const Writing& w, const Mesh& mesh, OutputFile& file)
+{
+    const std::string word = w.output.format->word, last = word.substr(word.rfind('.') + 1);
+    if (last == "glb") {
+        GlbOptions options;
+        options.name = stemOf(w.output.path);
+        options.scale = w.call.scene.scale;
+        return writeGlb(mesh, options, file);
+    }
+    for (const MeshFormat& format : meshFormats())
+        if (format.word == last)
+            format.write(mesh, {stemOf(w.output.path), printUnit(w.call)}, file);
+}
+
 void writeTube(const Writing& w, OutputFile& file)
 {
-    for (const MeshFormat& format : meshFormats())
-        if ("pore." + std::string(format.word) == w.output.format->word)
-            format.write(tubeOf(w), {stemOf(w.output.path), printUnit(w.call)}, file);
+    writeBeside(w, tubeOf(w), file);
 }
 
 /// The body of one pocket where the mesh lies.
@@ -382,9 +395,7 @@ Mesh bodyOf(const Writing& w)
 
 void writeBody(const Writing& w, OutputFile& file)
 {
-    for (const MeshFormat& format : meshFormats())
-        if ("pockets." + std::string(format.word) == w.output.format->word)
-            format.write(bodyOf(w), {stemOf(w.output.path), printUnit(w.call)}, file);
+    writeBeside(w, bodyOf(w), file);
 }
 
 template<int axis>
@@ -450,25 +461,13 @@ std::vector<Format> areaFormats()
          }},
         {"pore.ply", built, Areas, ofPore, "pore", writeTube},
         {"pore.obj", built, Areas, ofPore, "pore", writeTube},
-        {"pore.glb", built, Areas, ofPore, "pore",
-         [](const Writing& w, OutputFile& file) {
-             GlbOptions options;
-             options.name = stemOf(w.output.path);
-             options.scale = w.call.scene.scale;
-             writeGlb(tubeOf(w), options, file);
-         }},
+        {"pore.glb", built, Areas, ofPore, "pore", writeTube},
         {"pockets.ply", Build, ofPocket, perPocket, "pockets", writeBody},
         {"pockets.obj", Build, ofPocket, perPocket, "pockets", writeBody},
         {"pockets.stl", Build, ofPocket, perPocket, "pockets", writeBody},
         {"pockets.off", Build, ofPocket, perPocket, "pockets", writeBody},
         {"pockets.vtk", Build, ofPocket, perPocket, "pockets", writeBody},
-        {"pockets.glb", Build, ofPocket, perPocket, "pockets",
-         [](const Writing& w, OutputFile& file) {
-             GlbOptions options;
-             options.name = stemOf(w.output.path);
-             options.scale = w.call.scene.scale;
-             writeGlb(bodyOf(w), options, file);
-         }},
+        {"pockets.glb", Build, ofPocket, perPocket, "pockets", writeBody},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
         {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},

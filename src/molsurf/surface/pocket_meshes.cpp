@@ -2,6 +2,7 @@
 #include "molsurf/surface/pocket_meshes.h"
 
 #include "molsurf/core/cancel.h"
+#include "molsurf/grid/grid_like.h"
 #include "molsurf/mesh/deviation.h"
 #include "molsurf/mesh/volume_mesher.h"
 #include "molsurf/surface/pockets.h"
@@ -16,14 +17,6 @@ namespace
 {
 
 using openvdb::Coord;
-
-template<typename GridT>
-const GridT& fieldOf(const MolecularSurface& result, const char* name)
-{
-    for (const auto& grid : result.fields)
-        if (grid->getName() == name) return dynamic_cast<const GridT&>(*grid);
-    throw std::logic_error(std::string("pockets have no field ") + name);
-}
 
 /// The voxels of each pocket.
 std::vector<std::vector<Coord>> voxelsOf(const openvdb::Int32Grid& ids, std::size_t count)
@@ -84,14 +77,15 @@ void addBody(const openvdb::FloatGrid& field, Mesh& mesh)
 Mesh pocketBodies(const MolecularSurface& result, const Progress& progress)
 {
     const auto& list = result.report.pockets->list;
-    const auto& ids = fieldOf<openvdb::Int32Grid>(result, "pocket_id");
-    const auto& rooms = fieldOf<openvdb::FloatGrid>(result, "pocket_room");
-    const std::vector<std::vector<Coord>> voxels = voxelsOf(ids, list.size());
+    const auto ids = findGrid<openvdb::Int32Grid>(result.fields, "pocket_id");
+    const auto rooms = findGrid<openvdb::FloatGrid>(result.fields, "pocket_room");
+    if (!ids || !rooms) throw std::logic_error("pockets: pocket_id or pocket_room is missing");
+    const std::vector<std::vector<Coord>> voxels = voxelsOf(*ids, list.size());
     Mesh mesh;
     for (std::size_t p = 0; p < list.size(); ++p) {
         stopIfCancelled(progress);
         mesh.parts.push_back({pocketName(p + 1, list[p].volume), mesh.triangles.size()});
-        addBody(*insideOf(voxels[p], std::int32_t(p + 1), ids, rooms), mesh);
+        addBody(*insideOf(voxels[p], std::int32_t(p + 1), *ids, *rooms), mesh);
         mesh.colors.resize(mesh.positions.size(), pocketColor(p + 1));
     }
     mesh.normals = vertexNormals(mesh);
