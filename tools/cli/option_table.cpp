@@ -85,10 +85,7 @@ Option number(const char* name, const char* value, std::string text, std::string
               unsigned verbs, double low, double high, const char* range, const Of& of)
 {
     Option o{name, 0, value, std::move(text), std::move(preset), verbs};
-    o.set = [=](Call& call, const Values& v) {
-        of(call) = parsedValue<double>(name, range, v.back());
-        if (!(of(call) >= low && of(call) <= high)) wrongValue(name, range, v.back());
-    };
+    o.set = numberSetter(name, low, high, range, of);
     return o;
 }
 

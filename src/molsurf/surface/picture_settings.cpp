@@ -27,14 +27,12 @@ template<typename Of>
 PictureSetting number(const char* name, const char* value, std::string text, std::string preset,
                       std::pair<double, double> limits, const char* range, const Of& of)
 {
-    const double low = limits.first, high = limits.second; // clang 14 captures no bindings
-    PictureSetting row{name, value, std::move(text), std::move(preset), {}, {}};
-    row.set = [=](PictureSettings& to, const Values& v) {
-        const double given = parsedValue<double>(name, range, v.back());
-        if (!(given >= low && given <= high)) wrongValue(name, range, v.back());
-        of(to) = given;
-    };
-    return row;
+    return {name,
+            value,
+            std::move(text),
+            std::move(preset),
+            {},
+            numberSetter(name, limits.first, limits.second, range, of)};
 }
 
 template<typename Of>

@@ -71,6 +71,19 @@ auto countSetter(const std::string& option, int low, int high, const Of& of)
     };
 }
 
+/// A number in a range.
+/// @param[in] range  in words: "0.05 to 10 Å"
+template<typename Of>
+auto numberSetter(const std::string& option, double low, double high, const std::string& range,
+                  const Of& of)
+{
+    return [=](auto& target, const std::vector<std::string>& values) {
+        const double given = parsedValue<double>(option, range, values.back());
+        if (!(given >= low && given <= high)) wrongValue(option, range, values.back());
+        of(target) = given;
+    };
+}
+
 /// One of a few values that nameOf() names.
 template<typename Of, typename Enum>
 auto wordSetter(const std::string& option, const std::vector<Enum>& choices, const Of& of)

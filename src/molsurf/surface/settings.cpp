@@ -344,14 +344,10 @@ template<typename Of>
 Setting optionalNumber(const char* name, const char* value, std::string text, const char* range,
                        std::pair<double, double> limits, const Of& of)
 {
-    const double low = limits.first, high = limits.second; // clang 14 captures no bindings
+    const auto [low, high] = limits;
     Setting row = within(low, high, number(name, value, std::move(text), of));
     row.preset = "";
-    row.set = [=](Settings& s, const Values& v) {
-        const double given = parsedValue<double>(name, range, v.back());
-        if (!(given >= low && given <= high)) wrongValue(name, range, v.back());
-        of(s) = given;
-    };
+    row.set = numberSetter(name, low, high, range, of);
     row.get = [=](const Settings& s) -> SettingValue {
         if (of(s) > 0.0) return of(s);
         return std::string("none");
