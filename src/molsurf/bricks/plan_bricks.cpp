@@ -59,8 +59,10 @@ constexpr double secondsOfStart = 0.03, secondsPerSplineLeaf = 0.05e-3;
 constexpr double secondsPerFittedLeaf = 0.15e-3, bytesPerFittedLeaf = 25e3; // without its spline
 constexpr double bytesOfPlyPerVoxel = 12.0, bytesPerReadVoxel = 44.0;       // of a mesh
 constexpr double secondsPerComparedVoxel = 0.6e-6;                          // more from afar
-constexpr double bytesPerPixel = 105.0, secondsPerPixel = 3e-6;             // of a square picture
-constexpr double bytesPerDrawnVoxel = 94.0, secondsPerDrawnVoxel = 0.5e-6;  // rays find triangles
+// measured: convert of sas, 4AT1 and 1CRN at 1 and 0.7 Å, 300 to 2400 pixels: 1.2 to 1.5 times
+// the peak, since --show pockets with --opacity takes as much more.
+constexpr double bytesPerPixel = 85.0, secondsPerPixel = 3e-6;             // of a square picture
+constexpr double bytesPerDrawnVoxel = 94.0, secondsPerDrawnVoxel = 0.5e-6; // rays find triangles
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
