@@ -15,6 +15,7 @@
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_comparison.h"
 #include "molsurf/io/write_vdb.h"
+#include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/compare.h"
 #include "molsurf/surface/run.h"
 

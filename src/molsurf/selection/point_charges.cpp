@@ -3,6 +3,7 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
 
