@@ -26,7 +26,7 @@ import mutate  # noqa: E402  (its copy of the tree)
 
 TABLE = ROOT / "bench" / "constants.md"
 SECONDS = 30  # that a run may take
-FOLDERS = ("src/molsurf/levelset", "src/molsurf/flow")
+FOLDERS = ("src/molsurf/levelset", "src/molsurf/topology", "src/molsurf/flow")
 
 # Sizes of blocks, of registers and of fields of bits, and values that mark what is not known.
 STRUCTURE = set("""lanes dim size count strides edge plane cubeEdge octants width padding padded shift first last unit

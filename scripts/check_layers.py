@@ -12,7 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 # The folders of src/molsurf in their order: each may include those before it, if it is not named here.
-FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelset", "pockets", "flow", "mesh", "color",
+FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelset", "topology", "pockets", "flow", "mesh", "color",
            "io", "picture", "surface", "bricks", "tools"]
 # The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it.
 FACE = {"error.h": "core", "progress.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "pockets",
@@ -24,6 +24,7 @@ ONLY = {
     "structure": {"core"},
     "selection": {"core", "balls", "structure"},
     "spline": {"core", "grid"},
+    "topology": {"core", "grid", "levelset", "spline"},
     "pockets": {"core", "grid", "balls", "levelset"},
     "mesh": {"core", "grid", "levelset", "spline"},
 }

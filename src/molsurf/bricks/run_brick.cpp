@@ -4,10 +4,10 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/levelset/round_ridges.h"
-#include "molsurf/levelset/walls.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/influence.h"
+#include "molsurf/topology/walls.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,6 @@
 
 #include "molsurf/grid/sparse_field.h"
 
-#include <vector>
-
 namespace molsurf
 {
 
@@ -16,19 +14,11 @@ struct BandWidths {
     double inside, outside;
 };
 
-/// Where what lies deeper than a level may be a thin wall or neck, as voxels tell.
-struct ThinPlace {
-    std::vector<openvdb::Vec3d> sheets; ///< closest points on the two or three sheets of the
-                                        ///< interface that it lies between [voxel]
-    std::vector<openvdb::Vec3d> near;   ///< on all sheets about it, half a voxel apart [voxel]
-};
-
 /// A signed distance in a band that need not be symmetric.
 struct DistanceBand {
     SparseField phi; ///< [Å]; active: -inside < phi < outside, elsewhere -inside or outside
     LeafTable kinks; ///< the same leaves; active: active voxels of phi with a kink between them and
                      ///< the next voxel along an axis (docs/math.md, section 7)
-    std::vector<ThinPlace> thin; ///< by leaf; none if they were not asked for
 };
 
 } // namespace molsurf

@@ -2,7 +2,6 @@
 #include "molsurf/levelset/gaussian_sum.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/levelset/critical_points.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -177,6 +176,11 @@ PsiJet GaussianSum::jet(const Vec3d& x) const
     return jetTermsAt(x).jetAt(x);
 }
 
+PsiJet GaussianSum::sharpenedJet(const Vec3d& x, double times) const
+{
+    return jetTermsAt(x).sharpened(times).jetAt(x);
+}
+
 bool GaussianSum::isCovered(const Vec3d& x, double more) const
 {
     return index_.anyNear(x, x, options_.probe - more, [&](const Ball& ball) {
@@ -270,20 +274,8 @@ SparseField GaussianSum::searched(const Candidates& leaves, const Progress& prog
     return psi;
 }
 
-void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
+void GaussianSum::addBumps(Candidates& leaves) const
 {
-    const PsiJetAt at = [this](const Vec3d& x) { return jet(x); };
-    const auto covered = [this](const Vec3d& x, double more) { return isCovered(x, more); };
-    const std::vector<Gap> gaps =
-        findCriticalPoints(searched(leaves, progress), at, covered, progress);
-    decisions_ = molsurf::decideGaps(at, gaps, *options_.gaps, options_.voxelSize, bumps_);
-    if (options_.gaps->countsClosed) {
-        const PassageField field{at, [this](const Vec3d& x) { return roomAt(x); },
-                                 [this](const Vec3d& x, double times) {
-                                     return jetTermsAt(x).sharpened(times).jetAt(x);
-                                 }};
-        countClosedByField(gaps, field, *options_.gaps, options_.epsilon, *decisions_);
-    }
     std::int32_t summed = 0;
     for (const std::int32_t place : leaves.places) summed += place >= 0;
     for (std::size_t n = 0; n < leaves.table.size(); ++n) {
@@ -298,10 +290,14 @@ void GaussianSum::decideGaps(Candidates& leaves, const Progress& progress)
     }
 }
 
-SparseField GaussianSum::band(int steps, const Progress& progress, const openvdb::CoordBBox& box)
+SparseField GaussianSum::band(int steps, const Progress& progress, const openvdb::CoordBBox& box,
+                              const BumpsFor& bumpsFor)
 {
     Candidates leaves = candidates(progress, box);
-    if (options_.gaps) decideGaps(leaves, progress);
+    if (bumpsFor) {
+        bumps_ = bumpsFor(searched(leaves, progress));
+        addBumps(leaves);
+    }
     // The inner voxels that have an outer one among their 26 neighbours.
     LeafTable& table = leaves.table;
     std::vector<LeafMask> outside(table.size());

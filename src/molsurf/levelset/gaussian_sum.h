@@ -11,13 +11,13 @@
 #include "molsurf/ball.h"
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/grid/sparse_field.h"
-#include "molsurf/levelset/closed_passages.h"
-#include "molsurf/levelset/gaps.h"
+#include "molsurf/levelset/bumps.h"
 #include "molsurf/levelset/gaussian_terms.h"
 #include "molsurf/levelset/jet_terms.h"
 #include "molsurf/progress.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -47,8 +47,6 @@ struct GaussianOptions {
     double reach = 3.0;      ///< how far outside the balls of radius R_i psi is wanted [Å]
     /// Of all balls, where the sum is made of some: near these it is then the same.
     std::optional<GaussianExtent> extent{};
-    /// How band() decides which gaps are open; none: by the voxels.
-    std::optional<GapRule> gaps{};
 
     /// C of a ball of radius R_i without a rate of its own [1/Å^2].
     double rate(double R) const
@@ -74,20 +72,31 @@ public:
     /// the balls that meet there: the largest tolerance of all balls [Å].
     double tolerance() const { return extent_.maxTolerance; }
 
+    /// GaussianOptions::epsilon
+    double epsilon() const { return options_.epsilon; }
+
+    /// How far a point lies outside all balls of radius R_i, at most `most`; negative inside one
+    /// [Å].
+    double roomAt(const openvdb::Vec3d& x, double most = 3.0) const;
+
+    /// Whether a point lies in a ball of radius R_i, and so far within its rim [Å].
+    bool isCovered(const openvdb::Vec3d& x, double more) const;
+
+    using BumpsFor = std::function<Bumps(const SparseField& psi)>;
+
     /// psi on the voxels within `steps` voxels (see dilated()) of those next to psi = 0, with the
-    /// reach of the options. Decides gaps first, if the options say so; psi has their bumps from
-    /// there on.
-    /// @param[in] box  of whole leaves: no others are looked at
+    /// reach of the options.
+    /// @param[in] box       of whole leaves: no others are looked at
+    /// @param[in] bumpsFor  none, or makes bumps, which psi has from there on, of psi on the leaves
+    ///                      whose sign no bounds decide
     /// @return no leaves if psi is negative at all voxels
     SparseField band(int steps, const Progress& progress,
-                     const openvdb::CoordBBox& box = openvdb::CoordBBox::inf());
-
-    /// How band() decided gaps, and what it has added to psi for them.
-    const std::optional<GapReport>& gaps() const { return decisions_; }
-    const Bumps& bumps() const { return bumps_; }
+                     const openvdb::CoordBBox& box = openvdb::CoordBBox::inf(),
+                     const BumpsFor& bumpsFor = {});
 
     /// psi is that of the balls and of these.
     void setBumps(const Bumps& bumps) { bumps_ = bumps; }
+    const Bumps& bumps() const { return bumps_; }
 
     /// psi at all voxels of a leaf. In each octant of it the balls are left out whose terms are
     /// below e^-12 of the sum throughout, and those that are farther than R_i + reach + 2 eps from
@@ -149,7 +158,10 @@ public:
                           });
     }
 
-    /// The same with bumps.
+    /// The same for a tolerance so many times smaller.
+    PsiJet sharpenedJet(const openvdb::Vec3d& x, double times) const;
+
+    /// With bumps.
     PsiJet jetWithBumps(const openvdb::Vec3d& x) const
     {
         PsiJet jet = this->jet(x);
@@ -166,16 +178,10 @@ private:
         LeafField sums;
     };
     Candidates candidates(const Progress& progress, const openvdb::CoordBBox& box) const;
-    void decideGaps(Candidates& leaves, const Progress& progress);
+    void addBumps(Candidates& leaves) const;
 
     /// psi on the leaves that bounds do not decide. The bounds decide none that is not covered.
     SparseField searched(const Candidates& leaves, const Progress& progress) const;
-
-    /// How far a point lies outside all balls of radius R_i, at most `most`; negative inside one.
-    double roomAt(const openvdb::Vec3d& x, double most = 3.0) const;
-
-    /// Whether a point lies in a ball of radius R_i, and so far within its rim [Å].
-    bool isCovered(const openvdb::Vec3d& x, double more) const;
 
     const JetTerms& jetTermsAt(const openvdb::Vec3d& x) const;
 
@@ -188,7 +194,6 @@ private:
     GaussianExtent extent_; // of all balls
     BallIndex index_;
     GaussianLists lists_; // of the balls in the order of the index
-    std::optional<GapReport> decisions_;
     Bumps bumps_;
 };
 

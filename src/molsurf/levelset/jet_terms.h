@@ -4,8 +4,8 @@
 /// @file
 /// The Gaussians that count at points near each other, and psi there with its derivatives.
 
-#include "molsurf/levelset/gaps.h"
 #include "molsurf/levelset/gaussian_terms.h"
+#include "molsurf/levelset/psi_jet.h"
 
 #include <openvdb/Types.h>
 

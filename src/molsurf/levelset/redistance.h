@@ -5,6 +5,7 @@
 /// The signed distance to the zero set of a level set, deep into the molecule, by closest points.
 
 #include "molsurf/grid/distance_band.h"
+#include "molsurf/levelset/seed_kinks.h"
 #include "molsurf/progress.h"
 
 namespace molsurf
@@ -29,10 +30,14 @@ namespace molsurf
 /// @param[in] band   how deep and how high the result reaches
 /// @param[in] level  the level set of the result that is wanted, which gets the best distances [Å]
 /// @param[in] box    a box of whole leaves, outside of which no result is wanted
-/// @param[in] thin   whether the thin places of a level inside are wanted
 DistanceBand redistance(SparseField phi, const BandWidths& band, double level,
                         const Progress& progress,
-                        const openvdb::CoordBBox& box = openvdb::CoordBBox::inf(),
-                        bool thin = false);
+                        const openvdb::CoordBBox& box = openvdb::CoordBBox::inf());
+
+/// Steps 3 and 4 of it, for whom the points of step 2 serve otherwise, too.
+/// @param[in] near   by nearestSeeds() with the same band and level
+/// @param[in] kinks  of the distance, by kinksOf()
+DistanceBand distancesBy(NearestSeeds near, LeafTable kinks, const BandWidths& band, double level,
+                         const Progress& progress);
 
 } // namespace molsurf

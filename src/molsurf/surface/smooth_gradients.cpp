@@ -8,6 +8,7 @@
 #include "molsurf/mesh/patch_gradients.h"
 #include "molsurf/surface/carrier_of.h"
 #include "molsurf/surface/surface_kind.h"
+#include "molsurf/topology/gaps_of_sum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -179,10 +180,15 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
     constexpr double leastShare = 0.2; // of the slope where a ball is alone, as in flow/rest.cpp
     const EvolveOptions flow = flowOptions(spec);
     const Weights weights = weightsOf(flow);
-    GaussianOptions gaussian = gaussianOptions(spec);
-    if (decidesGaps(flow)) gaussian.gaps = GapRule{weights.gradient, weights.area, false};
+    const GaussianOptions gaussian = gaussianOptions(spec);
     GaussianSum sum(atoms.balls, gaussian, atoms.decays);
-    if (gaussian.gaps) sum.band(0, progress); // whose gaps have bumps
+    if (auto rule = gapRuleOf(spec)) { // then psi has the bumps of gaps
+        rule->countsClosed = false;
+        sum.band(0, progress, openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
+            GapReport unused;
+            return decideGaps(sum, psi, *rule, progress, unused);
+        });
+    }
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, atoms.decays);
     const double leastSlope = leastShare * *std::min_element(slopes.begin(), slopes.end());
     const Interface interface {

@@ -132,6 +132,13 @@ int psiBandVox(const SurfaceSpec& spec)
     return restsInClosedForm(spec) ? restBandVox(spec.voxel) : bandWidthVox;
 }
 
+std::optional<GapRule> gapRuleOf(const SurfaceSpec& spec)
+{
+    if (!hasFlow(spec.kind) || !decidesGaps(spec.evolution)) return {};
+    const Weights weights = weightsOf(spec.evolution);
+    return GapRule{weights.gradient, weights.area};
+}
+
 bool decidesWalls(const SurfaceSpec& spec)
 {
     constexpr double leastOffset = 1.5; // [voxel]

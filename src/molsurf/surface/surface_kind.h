@@ -8,7 +8,9 @@
 #include "molsurf/grid/distance_band.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/options.h"
+#include "molsurf/topology/gaps.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,6 +85,9 @@ bool hasClosedForm(const SurfaceOptions& options);
 /// Tells whether psi decides which thin walls of a surface are closed: where it decides gaps, and
 /// voxels hold what it decides.
 bool decidesWalls(const SurfaceSpec& spec);
+
+/// How the gaps of a surface are decided; none: by its voxels and fronts.
+std::optional<GapRule> gapRuleOf(const SurfaceSpec& spec);
 
 /// The options of the flow of a surface, with what it takes from those of the surface.
 EvolveOptions flowOptions(const SurfaceSpec& spec);

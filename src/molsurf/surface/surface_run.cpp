@@ -12,7 +12,6 @@
 #include "molsurf/levelset/round_ridges.h"
 #include "molsurf/levelset/thicken.h"
 #include "molsurf/levelset/union_distance.h"
-#include "molsurf/levelset/walls.h"
 #include "molsurf/mesh/integrate.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/specks.h"
@@ -26,6 +25,8 @@
 #include "molsurf/surface/fill_cavities.h"
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/remesh_run.h"
+#include "molsurf/topology/gaps_of_sum.h"
+#include "molsurf/topology/walls.h"
 
 #include <tbb/parallel_invoke.h>
 
@@ -60,17 +61,20 @@ void SurfaceRun::density()
     const bool evolves = hasFlow(options_.kind);
     GaussianOptions gaussian = gaussianOptions(options_);
     gaussian.extent = influence_.extent();
-    if (evolves && decidesGaps(options_.evolution)) {
-        const Weights weights = weightsOf(options_.evolution);
-        gaussian.gaps = GapRule{weights.gradient, weights.area, atoms_.decays.empty()};
-    }
     sum_.emplace(atoms_.balls, gaussian, evolves ? atoms_.decays : std::vector<Decay>());
     if (evolves && startsOnCoarserVoxels(flowOptions(options_), options_.voxel)) {
         refineCoarseRest();
         return;
     }
+    GaussianSum::BumpsFor decided;
+    if (auto rule = gapRuleOf(options_)) {
+        rule->countsClosed = atoms_.decays.empty();
+        decided = [this, rule](const SparseField& psi) {
+            return decideGaps(*sum_, psi, *rule, progress_, gaps_.emplace());
+        };
+    }
     SparseField psi =
-        sum_->band(psiBandVox(options_), progress_, scope_.region.grown(scope_.flowHalo));
+        sum_->band(psiBandVox(options_), progress_, scope_.region.grown(scope_.flowHalo), decided);
     bumps_ = sum_->bumps();
     if (psi.table.size() == 0 && scope_.region.whole()) {
         failIfTooCoarse("density: no voxel lies inside the surface", atoms_.balls, options_);
@@ -132,7 +136,7 @@ void SurfaceRun::rest()
     displacements_ = waysToRest(psi, rest, *sum_, weights, scope_.region, progress_);
     EvolutionReport& report = result_.report.evolution.emplace();
     judgeRest(displacements_, evolution, options_.voxel, report);
-    if (scope_.region.whole()) report.gaps = sum_->gaps();
+    if (scope_.region.whole()) report.gaps = gaps_;
     carryLevels(rest, bandWidthVox * options_.voxel, psi, progress_);
     watch_.stop("evolve");
 }
@@ -148,9 +152,23 @@ void SurfaceRun::flow()
     };
     result_.report.evolution = evolve(band_, source, flowOptions(options_), progress_,
                                       scope_.region, scope_.flowHalo, &displacements_);
-    if (scope_.region.whole()) result_.report.evolution->gaps = sum_->gaps();
+    if (scope_.region.whole()) result_.report.evolution->gaps = gaps_;
     watch_.stop("evolve");
 }
+
+namespace
+{
+
+/// Moves the zero set of a level set inward.
+void moveInward(SparseField& S, double offset, const Progress& progress)
+{
+    if (offset <= 0.0) return;
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        for (int v = 0; v < leafSize; ++v) S.leaf(n)[v] += float(offset);
+    });
+}
+
+} // namespace
 
 /// Whether the evolved level set is still needed when S is known.
 bool SurfaceRun::keepsLevelSet() const
@@ -175,60 +193,68 @@ DistanceBand SurfaceRun::distanceToBalls()
                            scope_.region.grown(scope_.splineHalo));
 }
 
-void SurfaceRun::distance()
+/// The carrier of the interface, and what is only needed for it goes.
+SparseField SurfaceRun::takeCarrier()
 {
-    progress_.update("redistance", 0.0);
-    const double offset = offsetOf(options_);
-    if (isUnion(options_.kind)) {
-        S_ = distanceToBalls();
-    } else {
-        const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
-        SparseField carrier =
-            carrier_.table.size() == 0
-                ? carrierOf(atoms_, options_, scope_.extent, band_, bumps_, progress_)
-            : keepsLevelSet() ? copied(carrier_)
-                              : std::move(carrier_);
-        if (options_.energy && sum_ && result_.report.evolution) {
-            result_.report.evolution->finalEnergy = interfaceEnergy(
-                carrier, *sum_, weightsOf(options_.evolution), scope_.region, progress_);
-        }
-        if (!decidesWalls(options_) && !options_.fillCavities) sum_.reset();
-        if (!options_.fillCavities) band_.psi = LeafField();
-        band_.phi =
-            keepsLevelSet() ? clipped(std::move(band_.phi), near, progress_) : SparseField();
-        S_ = redistance(clipped(std::move(carrier), near, progress_), widthsOf(options_), -offset,
-                        progress_, scope_.region.grown(scope_.ridgeHalo), decidesWalls(options_));
+    const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
+    SparseField carrier = carrier_.table.size() == 0
+                              ? carrierOf(atoms_, options_, scope_.extent, band_, bumps_, progress_)
+                          : keepsLevelSet() ? copied(carrier_)
+                                            : std::move(carrier_);
+    if (options_.energy && sum_ && result_.report.evolution) {
+        result_.report.evolution->finalEnergy = interfaceEnergy(
+            carrier, *sum_, weightsOf(options_.evolution), scope_.region, progress_);
     }
-    if (offset > 0.0) {
-        parallelFor(S_.phi.table.size(), progress_, [&](std::size_t n) {
-            for (int v = 0; v < leafSize; ++v) S_.phi.leaf(n)[v] += float(offset);
-        });
-    }
-    const std::vector<Wall> walls = findWalls();
-    openWalls(walls, offset, S_.phi);
-    if (hasFlow(options_.kind)) roundRidges(S_, offset, progress_);
-    decideWalls(walls);
-    if (options_.minWall > 0.0)
-        thickenWalls(S_, options_.minWall, splineWidthOf(options_), progress_);
-    watch_.stop("redistance");
+    if (!decidesWalls(options_) && !options_.fillCavities) sum_.reset();
+    if (!options_.fillCavities) band_.psi = LeafField();
+    band_.phi = keepsLevelSet() ? clipped(std::move(band_.phi), near, progress_) : SparseField();
+    return clipped(std::move(carrier), near, progress_);
 }
 
-std::vector<Wall> SurfaceRun::findWalls()
+/// The walls of the surface, decided; thin places are seen by the closest points of voxels.
+std::vector<Decision> SurfaceRun::wallsBy(const NearestSeeds& near, const SeedKinks& kinks)
 {
     if (!decidesWalls(options_)) return {};
+    const double offset = offsetOf(options_);
     const PsiJetAt psi = [&](const openvdb::Vec3d& x) { return sum_->jetWithBumps(x); };
-    std::vector<Wall> walls =
-        molsurf::findWalls(psi, S_.thin, offsetOf(options_), options_.voxel, progress_);
-    S_.thin = {};
+    const std::vector<Decision> walls =
+        decideWalls(psi, thinPlaces(near, kinks.turns, offset / options_.voxel, progress_), offset,
+                    options_.voxel, progress_);
     if (!options_.fillCavities) sum_.reset(); // whose surface is made a second time
+    if (scope_.region.whole())
+        result_.report.evolution->walls = reportOf(walls, deepestWall * options_.voxel);
     return walls;
 }
 
-void SurfaceRun::decideWalls(const std::vector<Wall>& walls)
+DistanceBand SurfaceRun::distanceToInterface()
 {
-    if (!decidesWalls(options_)) return;
-    const GapReport decisions = molsurf::decideWalls(walls, offsetOf(options_), S_.phi);
-    if (scope_.region.whole()) result_.report.evolution->walls = decisions;
+    const double offset = offsetOf(options_);
+    const BandWidths widths = widthsOf(options_);
+    NearestSeeds near = nearestSeeds(takeCarrier(), widths, -offset,
+                                     scope_.region.grown(scope_.ridgeHalo), progress_);
+    SeedKinks kinks = kinksOf(near, progress_);
+    const std::vector<Decision> walls = wallsBy(near, kinks);
+    DistanceBand S =
+        distancesBy(std::move(near), std::move(kinks.kinks), widths, -offset, progress_);
+    moveInward(S.phi, offset, progress_);
+    openWalls(walls, S.phi);
+    if (hasFlow(options_.kind)) roundRidges(S, offset, progress_);
+    holdWalls(walls, S.phi);
+    return S;
+}
+
+void SurfaceRun::distance()
+{
+    progress_.update("redistance", 0.0);
+    if (isUnion(options_.kind)) {
+        S_ = distanceToBalls();
+        moveInward(S_.phi, offsetOf(options_), progress_);
+    } else {
+        S_ = distanceToInterface();
+    }
+    if (options_.minWall > 0.0)
+        thickenWalls(S_, options_.minWall, splineWidthOf(options_), progress_);
+    watch_.stop("redistance");
 }
 
 namespace

@@ -8,13 +8,14 @@
 #include "molsurf/balls/boundary_measure.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/grid/region.h"
-#include "molsurf/levelset/walls.h"
+#include "molsurf/levelset/seed_kinks.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/influence.h"
 #include "molsurf/surface/surface_kind.h"
+#include "molsurf/topology/decision.h"
 
 #include <chrono>
 #include <memory>
@@ -173,9 +174,10 @@ private:
     void rest();
     void checkLeft() const;
     bool keepsLevelSet() const;
+    SparseField takeCarrier();
     DistanceBand distanceToBalls();
-    std::vector<Wall> findWalls();
-    void decideWalls(const std::vector<Wall>& walls);
+    DistanceBand distanceToInterface();
+    std::vector<Decision> wallsBy(const NearestSeeds& near, const SeedKinks& kinks);
 
     const BallSet& atoms_;
     const SurfaceOptions options_;
@@ -185,9 +187,10 @@ private:
     MolecularSurface result_;
     Stopwatch watch_;
     std::optional<GaussianSum> sum_;
-    Bumps bumps_;         ///< that it adds to psi
-    NarrowBand band_;     ///< the level set that a smooth surface is offset from
-    SparseField carrier_; ///< psi, then the interface, where it rests in closed form
+    std::optional<GapReport> gaps_; ///< how they were decided
+    Bumps bumps_;                   ///< that the sum adds to psi
+    NarrowBand band_;               ///< the level set that a smooth surface is offset from
+    SparseField carrier_;           ///< psi, then the interface, where it rests in closed form
     Displacements displacements_;
     DistanceBand S_;
     Spline spline_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/closed_passages.h"
+#include "molsurf/topology/closed_passages.h"
 
 #include "molsurf/core/disjoint_sets.h"
 

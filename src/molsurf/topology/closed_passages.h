@@ -5,7 +5,7 @@
 /// Passages that the field closes although a probe fits into them: psi adds up the balls about a
 /// passage, so that it may be positive where no ball covers it. docs/math.md, section 2.
 
-#include "molsurf/levelset/gaps.h"
+#include "molsurf/topology/gaps.h"
 
 #include <functional>
 #include <vector>

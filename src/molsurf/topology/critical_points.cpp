@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/critical_points.h"
+#include "molsurf/topology/critical_points.h"
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"

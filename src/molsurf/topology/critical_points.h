@@ -8,8 +8,8 @@
 /// nearest. docs/math.md, section 2.
 
 #include "molsurf/grid/sparse_field.h"
-#include "molsurf/levelset/gaps.h"
 #include "molsurf/progress.h"
+#include "molsurf/topology/gaps.h"
 
 #include <functional>
 #include <vector>

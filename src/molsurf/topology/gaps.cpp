@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/gaps.h"
+#include "molsurf/topology/gaps.h"
 
 #include <openvdb/math/Mat3.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace molsurf
 {
@@ -69,7 +70,7 @@ std::vector<Gap> distinct(std::vector<Gap> gaps)
               [](const Gap& a, const Gap& b) { return a.place < b.place; });
     std::vector<Gap> out;
     for (const Gap& gap : gaps)
-        if (!standsAmong(out, gap.place, same)) out.push_back(gap);
+        if (!isAmong(out, gap.place, same)) out.push_back(gap);
     return out;
 }
 
@@ -114,8 +115,18 @@ std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach,
     return gapAt(x, at);
 }
 
-GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& rule,
-                     double voxelSize, Bumps& bumps)
+std::vector<Decision> decideGaps(const std::vector<Gap>& gaps, const GapRule& rule)
+{
+    std::vector<Decision> out;
+    for (const Gap& gap : gaps) {
+        const double level = gap.closedAbove(rule.gradient, rule.area);
+        out.push_back({gap.place, gap.psi - level, gap.psi >= 0.0});
+    }
+    return out;
+}
+
+void holdGaps(const PsiJetAt& jet, const std::vector<Gap>& gaps,
+              const std::vector<Decision>& decisions, double voxelSize, Bumps& bumps)
 {
     constexpr double held = 0.7;     // half a gap that voxels hold [voxel]
     constexpr double widest = 0.5;   // [Å]
@@ -123,26 +134,13 @@ GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& 
     const double reach = std::min(held * voxelSize, widest);
     const double rate = std::min(sharpest, 0.7 / (voxelSize * voxelSize));
     const auto psi = [&](const Vec3d& x) { return jet(x).psi + bumps.at(x); };
-    gaps.erase(std::remove_if(gaps.begin(), gaps.end(),
-                              [](const Gap& gap) { return gap.psi > farthestGap; }),
-               gaps.end());
-    GapReport done;
-    done.found = gaps.size();
-    done.nearest = farthestGap;
-    std::vector<bool> solid;
-    for (const Gap& gap : gaps) {
-        const double level = gap.closedAbove(rule.gradient, rule.area);
-        solid.push_back(gap.psi > level);
-        done.closed += gap.psi < 0.0 && solid.back();
-        done.nearest = std::min(done.nearest, std::abs(gap.psi - level));
-    }
     for (int pass = 0; pass < 2; ++pass) { // what is done for one may undo what was for another
         for (std::size_t i = 0; i < gaps.size(); ++i) {
-            const Bump bump = bumpAt(gaps[i], solid[i], reach, rate, psi);
-            if (bump.amplitude * (solid[i] ? 1.0 : -1.0) > 1e-6) bumps.add(bump);
+            const bool solid = decisions[i].closed();
+            const Bump bump = bumpAt(gaps[i], solid, reach, rate, psi);
+            if (bump.amplitude * (solid ? 1.0 : -1.0) > 1e-6) bumps.add(bump);
         }
     }
-    return done;
 }
 
 } // namespace molsurf

@@ -2,28 +2,18 @@
 #pragma once
 
 /// @file
-/// Which gaps of a molecule are open. The topology of psi = 0 changes at critical points of psi
-/// only. Where one is near the level, a grid, its place and the steps of a flow would decide.
-/// Instead psi decides, and is changed there such that voxels hold the decision. docs/math.md,
-/// section 2.
+/// Which gaps of a molecule are open: the topology of psi = 0 changes at critical points of psi
+/// only. Where one is near the level, psi decides. docs/math.md, section 2.
 
 #include "molsurf/levelset/bumps.h"
-#include "molsurf/report.h"
+#include "molsurf/levelset/psi_jet.h"
+#include "molsurf/topology/decision.h"
 
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace molsurf
 {
-
-/// psi, its gradient and its Hessian at a point.
-struct PsiJet {
-    double psi;
-    openvdb::Vec3d gradient; ///< [1/Å]
-    openvdb::Mat3d hessian;  ///< [1/Å^2]
-};
-using PsiJetAt = std::function<PsiJet(const openvdb::Vec3d&)>;
 
 /// A critical point of psi near its zero: the middle of a cavity, the narrowest place of a tunnel,
 /// or that of a slit between two bodies.
@@ -66,22 +56,16 @@ std::optional<Gap> gapAt(const openvdb::Vec3d& place, const PsiJet& there);
 /// Sorts by place and removes duplicates.
 std::vector<Gap> distinct(std::vector<Gap> gaps);
 
-/// Whether one of some that ascend by places, the last of which has no larger x, is at a place.
-template<typename Placed>
-bool standsAmong(const std::vector<Placed>& some, const openvdb::Vec3d& place, double same)
-{
-    for (auto o = some.rbegin(); o != some.rend() && place.x() - o->place.x() <= same; ++o)
-        if ((place - o->place).length() < same) return true;
-    return false;
-}
+/// Decides gaps: each is closed if psi there is above Gap::closedAbove().
+/// @param[in] gaps  distinct, none above farthestGap
+/// @return one a gap
+std::vector<Decision> decideGaps(const std::vector<Gap>& gaps, const GapRule& rule);
 
-using GapReport = EvolutionReport::Gaps;
-
-/// Decides gaps. Where one is closed, psi becomes positive about it, and where it is open it
+/// Holds decisions: where a gap is closed, psi becomes positive about it, and where it is open it
 /// becomes at least as wide as voxels hold.
-/// @param[in]     gaps   distinct; those above farthestGap are left out
-/// @param[in,out] bumps  those that do so are added
-GapReport decideGaps(const PsiJetAt& jet, std::vector<Gap> gaps, const GapRule& rule,
-                     double voxelSize, Bumps& bumps);
+/// @param[in]     decisions  of the gaps
+/// @param[in,out] bumps      those that do so are added
+void holdGaps(const PsiJetAt& jet, const std::vector<Gap>& gaps,
+              const std::vector<Decision>& decisions, double voxelSize, Bumps& bumps);
 
 } // namespace molsurf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/walls.h"
+#include "molsurf/topology/walls.h"
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/levelset/closest_foot.h"
@@ -18,10 +18,9 @@ using openvdb::Vec3d;
 namespace
 {
 
-// Least depth of the middle of a closed wall inside the surface, and of an open one outside, that
-// the grid still resolves [voxel].
-constexpr double heldDepth = 0.7, heldHeight = 0.25;
-constexpr double deepest = 1.2; // of a wall that voxels or the rounding of ridges may open [voxel]
+// Least depth of the middle of a closed wall inside the surface that the grid still resolves
+// [voxel]. That of an open one outside is highestWall.
+constexpr double heldDepth = 0.7;
 constexpr double bumpRadius = 3.0; // [voxel]
 
 // How far outside the middle of an open wall comes to lie, so that the film about it is too thin to
@@ -34,32 +33,6 @@ constexpr double openHeight = 0.25, openRadius = 1.5;
 double openRadiusOf(double voxelSize) // [voxel]
 {
     return std::max(bumpRadius, openRadius / voxelSize);
-}
-
-/// Unit of lengths near a wall [voxel]: as voxels come near to the depth, everything would be near.
-double unitAt(double depth)
-{
-    return std::min(depth / 2.8, 1.0); // a probe of 1.4 Å on voxels of 0.5 Å
-}
-
-/// The smallest sphere through two or three points.
-struct Rim {
-    Vec3d centre;
-    double radius;
-    double least; ///< the smallest weight of a point in the centre: negative if it is not amid them
-};
-
-Rim rimOf(const std::vector<Vec3d>& y)
-{
-    if (y.size() == 2) return {0.5 * (y[0] + y[1]), 0.5 * (y[1] - y[0]).length(), 0.5};
-    const double a2 = (y[1] - y[2]).lengthSqr(), b2 = (y[2] - y[0]).lengthSqr(),
-                 c2 = (y[0] - y[1]).lengthSqr();
-    Vec3d w(a2 * (b2 + c2 - a2), b2 * (c2 + a2 - b2), c2 * (a2 + b2 - c2));
-    const double sum = w[0] + w[1] + w[2];
-    if (sum < 1e-6) return {y[0], 0.0, -1.0};
-    w /= sum;
-    const Vec3d centre = w[0] * y[0] + w[1] * y[1] + w[2] * y[2];
-    return {centre, (centre - y[0]).length(), std::min({w[0], w[1], w[2]})};
 }
 
 /// psi with lengths in voxels.
@@ -164,12 +137,6 @@ void addBump(const Vec3d& place, double amplitude, double radius, SparseField& S
     }
 }
 
-/// How much thicker a wall is than the thinnest that is closed, halved [Å].
-double beyondOf(const Wall& wall, double offset)
-{
-    return wall.depth - offset - thinnestWall;
-}
-
 } // namespace
 
 int wallReach(double voxelSize)
@@ -178,100 +145,56 @@ int wallReach(double voxelSize)
     return int(std::ceil(bumpRadius + openRadiusOf(voxelSize) + told));
 }
 
-void findThinPlaces(const std::vector<Vec3d>& feet, const Vec3d& middle, double depth,
-                    std::vector<ThinPlace>& out)
-{
-    const double unit = unitAt(depth), farthest = 1.2 * unit, doubt = 0.5 * unit;
-    const double apart = std::max(0.5 * depth, 1.0);
-    // The mean of the feet on a sheet is about the foot of the middle.
-    struct Sheet {
-        Vec3d first, sum;
-        int count;
-        Vec3d foot() const { return sum / count; }
-    };
-    std::vector<Sheet> sheets;
-    for (const Vec3d& foot : feet) {
-        const auto same = std::find_if(sheets.begin(), sheets.end(), [&](const Sheet& s) {
-            return (foot - s.first).lengthSqr() < apart * apart;
-        });
-        if (same == sheets.end()) {
-            sheets.push_back({foot, foot, 1});
-        } else {
-            same->sum += foot;
-            ++same->count;
-        }
-    }
-    if (sheets.size() < 2) return;
-    const auto add = [&](std::vector<Vec3d> some) {
-        constexpr double leastWeight = -0.2;
-        const Rim rim = rimOf(some);
-        if (rim.least > leastWeight && rim.radius > depth - heldHeight - doubt &&
-            rim.radius < depth + deepest * unit + doubt &&
-            (rim.centre - middle).length() < farthest)
-            out.push_back({std::move(some), {}});
-    };
-    for (std::size_t i = 0; i < sheets.size(); ++i) {
-        for (std::size_t j = i + 1; j < sheets.size(); ++j) {
-            add({sheets[i].foot(), sheets[j].foot()});
-            for (std::size_t k = j + 1; k < sheets.size(); ++k)
-                add({sheets[i].foot(), sheets[j].foot(), sheets[k].foot()});
-        }
-    }
-}
-
-std::vector<Wall> findWalls(const PsiJetAt& psi, const std::vector<ThinPlace>& places,
-                            double offset, double voxelSize, const Progress& progress)
+std::vector<Decision> decideWalls(const PsiJetAt& psi, const std::vector<ThinPlace>& places,
+                                  double offset, double voxelSize, const Progress& progress)
 {
     constexpr double same = 0.1; // [voxel]
     const double depth = offset / voxelSize;
+    const double least = depth - highestWall, most = depth + deepestWall * unitAt(depth);
     const auto jetAt = inVoxels(psi, voxelSize);
     std::vector<std::optional<Middle>> found(places.size());
-    parallelFor(places.size(), progress, [&](std::size_t i) {
-        found[i] =
-            middleFrom(jetAt, places[i], depth - heldHeight, depth + deepest * unitAt(depth));
-    });
-    std::vector<Middle> middles;
+    parallelFor(places.size(), progress,
+                [&](std::size_t i) { found[i] = middleFrom(jetAt, places[i], least, most); });
+    std::vector<Middle> middles, walls;
     for (const auto& middle : found)
         if (middle) middles.push_back(*middle);
     std::sort(middles.begin(), middles.end());
-    std::vector<Wall> walls;
-    for (const Middle& middle : middles) {
-        if (!standsAmong(walls, middle.place, same) && isNearest(jetAt, middle))
-            walls.push_back({middle.place, middle.depth * voxelSize});
-    }
-    return walls;
+    for (const Middle& middle : middles)
+        if (!isAmong(walls, middle.place, same) && isNearest(jetAt, middle))
+            walls.push_back(middle);
+    std::vector<Decision> out;
+    for (const Middle& wall : walls)
+        out.push_back({wall.place * voxelSize, wall.depth * voxelSize - offset - thinnestWall});
+    return out;
 }
 
-void openWalls(const std::vector<Wall>& walls, double offset, SparseField& S)
+void openWalls(const std::vector<Decision>& walls, SparseField& S)
 {
-    const double radius = openRadiusOf(S.voxelSize);
+    const double h = S.voxelSize, radius = openRadiusOf(h);
     std::vector<std::pair<Vec3d, double>> opened; // places and amplitudes
-    for (const Wall& wall : walls) {
-        if (beyondOf(wall, offset) > 0.0) continue;
+    for (const Decision& wall : walls) {
+        if (wall.closed()) continue;
         // S between voxels would be too high: the middle lies on a ridge of the depth.
-        double lacks = openHeight - (offset - wall.depth);
-        for (const auto& [place, amplitude] : opened)
-            lacks -= amplitude * fallOf(wall.place, place, radius);
+        const Vec3d place = wall.place / h;
+        double lacks = openHeight + thinnestWall + wall.beyond;
+        for (const auto& [other, amplitude] : opened)
+            lacks -= amplitude * fallOf(place, other, radius);
         if (lacks <= 0.0) continue;
-        addBump(wall.place, lacks, radius, S);
-        opened.emplace_back(wall.place, lacks);
+        addBump(place, lacks, radius, S);
+        opened.emplace_back(place, lacks);
     }
 }
 
-GapReport decideWalls(const std::vector<Wall>& walls, double offset, SparseField& S)
+void holdWalls(const std::vector<Decision>& walls, SparseField& S)
 {
-    GapReport done;
-    done.nearest = deepest * S.voxelSize;
-    for (const Wall& wall : walls) {
-        const double beyond = beyondOf(wall, offset), here = valueAt(S, wall.place);
-        ++done.found;
-        done.closed += beyond > 0.0;
-        done.nearest = std::min(done.nearest, std::abs(beyond));
-        const double lacks = beyond > 0.0 ? std::min(-heldDepth * S.voxelSize - here, 0.0)
-                                          : std::max(heldHeight * S.voxelSize - here, 0.0);
-        if (lacks != 0.0) addBump(wall.place, lacks, bumpRadius, S);
+    const double h = S.voxelSize;
+    for (const Decision& wall : walls) {
+        const Vec3d place = wall.place / h;
+        const double here = valueAt(S, place);
+        const double lacks = wall.closed() ? std::min(-heldDepth * h - here, 0.0)
+                                           : std::max(highestWall * h - here, 0.0);
+        if (lacks != 0.0) addBump(place, lacks, bumpRadius, S);
     }
-    return done;
 }
 
 } // namespace molsurf

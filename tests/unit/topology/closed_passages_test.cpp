@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/closed_passages.h"
-#include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/topology/closed_passages.h"
+#include "molsurf/topology/gaps_of_sum.h"
 
 #include <gtest/gtest.h>
 
@@ -53,10 +53,12 @@ GapReport gapsOf(const std::vector<Ball>& balls, double voxel, double epsilon,
     options.epsilon = epsilon;
     options.voxelSize = voxel;
     options.reach = 4.5 * voxel;
-    options.gaps = rule;
     GaussianSum sum(balls, options);
-    sum.band(3, Progress());
-    return *sum.gaps();
+    GapReport report;
+    sum.band(3, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
+        return decideGaps(sum, psi, rule, Progress(), report);
+    });
+    return report;
 }
 
 TEST(ClosedPassages, OfACageHaveTheRoomBesideAProbe)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/topology/gaps_of_sum.h"
 
 #include "support/fields.h"
 #include "support/molecules.h"
@@ -22,14 +22,22 @@ using openvdb::Vec3d;
 
 constexpr double tolerance = 0.5, tension = 0.01, R = 3.1; // radius with the probe
 
-GaussianOptions optionsWith(double voxel, double gradient, double area = 0.0)
+GaussianOptions optionsWith(double voxel)
 {
     GaussianOptions options;
     options.epsilon = tolerance;
     options.voxelSize = voxel;
     options.reach = 4.5 * voxel;
-    options.gaps = GapRule{gradient, area};
     return options;
+}
+
+/// psi in a band about its zero, once gaps are decided.
+SparseField bandOf(GaussianSum& sum, double gradient, GapReport* report = nullptr)
+{
+    GapReport unused;
+    return sum.band(3, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
+        return decideGaps(sum, psi, {gradient}, Progress(), report ? *report : unused);
+    });
 }
 
 /// A turn and a shift by less than an Å, drawn at random.
@@ -76,7 +84,7 @@ TEST(Gaps, JetsAreDerivativesOfPsi)
 {
     std::mt19937 random(3);
     const std::vector<Ball> balls = cage(-0.3, Pose(random));
-    const GaussianSum sum(balls, optionsWith(0.5, tension));
+    const GaussianSum sum(balls, optionsWith(0.5));
     constexpr double step = 1e-4;
     const Vec3d x = balls[0].center * 0.3 + balls[2].center * 0.2 + balls[5].center * 0.1;
     const PsiJet jet = sum.jet(x);
@@ -95,7 +103,7 @@ TEST(Gaps, TheMiddleOfACageIsFoundFromWhereverItIsNear)
 {
     std::mt19937 random(4);
     const Pose pose(random);
-    const GaussianSum sum(cage(-0.4, pose), optionsWith(0.5, tension));
+    const GaussianSum sum(cage(-0.4, pose), optionsWith(0.5));
     const PsiJetAt jet = [&](const Vec3d& x) { return sum.jet(x); };
     std::uniform_real_distribution<double> near(-0.2, 0.2);
     for (int i = 0; i < 20; ++i) {
@@ -181,18 +189,17 @@ TEST(Gaps, OfACageAreOpenOrClosedInAllPoses)
                 const bool open = i % 2;
                 const Pose pose(random);
                 // The curvature at the middle of a cage is the same all round.
-                const GaussianSum about(cage(-0.3, pose), optionsWith(voxel, lambda));
+                const GaussianSum about(cage(-0.3, pose), optionsWith(voxel));
                 Gap middle{};
                 middle.curvatures = Vec3d(about.jet(pose.shift).hessian(0, 0));
                 const double edge = middle.closedAbove(lambda, 0.0);
-                GaussianSum sum(cage((open ? 1.15 : 0.85) * edge, pose),
-                                optionsWith(voxel, lambda));
-                const SparseField psi = sum.band(3, Progress());
+                GaussianSum sum(cage((open ? 1.15 : 0.85) * edge, pose), optionsWith(voxel));
+                GapReport report;
+                const SparseField psi = bandOf(sum, lambda, &report);
                 EXPECT_EQ(outsideNear(psi, pose.shift, 1.2) > 0, open)
                     << lambda << " " << voxel << " " << i;
-                ASSERT_TRUE(sum.gaps());
-                EXPECT_EQ(sum.gaps()->closed, open ? 0u : 1u);
-                EXPECT_NEAR(sum.gaps()->nearest, 0.15 * -edge, 0.02);
+                EXPECT_EQ(report.closed, open ? 0u : 1u);
+                EXPECT_NEAR(report.nearest, 0.15 * -edge, 0.02);
             }
         }
     }
@@ -206,11 +213,11 @@ TEST(Gaps, OfACageThatStandsSquareOnTheVoxelsAreFoundWhereverItIs)
     pose.turn = Mat3d::identity();
     for (const double place : {0.0, 0.1, 0.25}) {
         pose.shift = Vec3d(place);
-        GaussianSum sum(cage(-0.36, pose), optionsWith(0.5, tension));
-        sum.band(3, Progress());
-        ASSERT_TRUE(sum.gaps());
-        EXPECT_EQ(sum.gaps()->found, 9u) << place;
-        EXPECT_EQ(sum.gaps()->closed, 1u) << place;
+        GaussianSum sum(cage(-0.36, pose), optionsWith(0.5));
+        GapReport report;
+        bandOf(sum, tension, &report);
+        EXPECT_EQ(report.found, 9u) << place;
+        EXPECT_EQ(report.closed, 1u) << place;
     }
 }
 
@@ -219,9 +226,9 @@ TEST(Gaps, AmongLooseAtomsAreThoseOfADenseSearch)
 {
     constexpr double edge = 11.0, step = 0.4; // [Å]
     for (unsigned seed = 4; seed < 8; ++seed) {
-        GaussianSum sum(test::randomBalls(20, edge, Vec3d(1.3, -2.1, 0.4), seed),
-                        optionsWith(0.5, tension));
-        sum.band(3, Progress());
+        GaussianSum sum(test::randomBalls(20, edge, Vec3d(1.3, -2.1, 0.4), seed), optionsWith(0.5));
+        GapReport report;
+        bandOf(sum, tension, &report);
         const PsiJetAt jet = [&](const Vec3d& x) { return sum.jet(x); };
         std::vector<Gap> dense;
         const Coord half(int(0.5 * edge / step) + 1);
@@ -232,7 +239,7 @@ TEST(Gaps, AmongLooseAtomsAreThoseOfADenseSearch)
         }
         dense = distinct(dense);
         EXPECT_GT(dense.size(), 0u);
-        EXPECT_EQ(sum.gaps()->found, dense.size()) << seed;
+        EXPECT_EQ(report.found, dense.size()) << seed;
     }
 }
 
@@ -243,11 +250,8 @@ TEST(Gaps, AreLeftToTheVoxelsWithoutARule)
     int open = 0;
     for (int i = 0; i < 30; ++i) {
         const Pose pose(random);
-        GaussianOptions options = optionsWith(0.75, tension);
-        options.gaps.reset();
-        GaussianSum sum(cage(-0.2, pose), options);
+        GaussianSum sum(cage(-0.2, pose), optionsWith(0.75));
         open += outsideNear(sum.band(3, Progress()), pose.shift, 1.2) > 0;
-        EXPECT_FALSE(sum.gaps());
     }
     EXPECT_GT(open, 2);
     EXPECT_LT(open, 28);
@@ -258,8 +262,8 @@ TEST(Gaps, BumpsAreInAllSamples)
 {
     std::mt19937 random(7);
     const Pose pose(random);
-    GaussianSum sum(cage(-0.1, pose), optionsWith(0.5, tension));
-    sum.band(3, Progress());
+    GaussianSum sum(cage(-0.1, pose), optionsWith(0.5));
+    bandOf(sum, tension);
     ASSERT_GT(sum.bumps().size(), 0u);
     const Coord origin = Coord::floor(pose.shift / 0.5) & ~7;
     float psi[leafSize];

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The gaps of a sum of Gaussians: found, decided and held.
+
+#include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/topology/gaps.h"
+
+namespace molsurf
+{
+
+/// Decides the gaps of a sum.
+/// @param[in]  psi     of the sum where bounds do not decide its sign, as GaussianSum::band() has
+/// it
+/// @param[out] report  how they were decided, and what the field closes if the rule says so
+/// @return what holds the decisions, for GaussianSum::band()
+Bumps decideGaps(const GaussianSum& sum, const SparseField& psi, const GapRule& rule,
+                 const Progress& progress, GapReport& report);
+
+} // namespace molsurf
