@@ -222,18 +222,19 @@ MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volum
                 v.meanDisplacement, v.maxSpeed, v.displacementRms, v.displacementTail,
                 v.toleranceMet, v.areaError, v.unsettledShare, v.finalEnergy, v.unresolvedGapVoxels,
                 v.frontSteps, v.restlessFronts, v.gaps, v.walls)
-MOLSURF_MEMBERS(GroupReport, v.name, v.atoms, v.area, v.volume, v.color, v.aloneArea)
-MOLSURF_MEMBERS(InterfaceReport, v.first, v.second, v.area, v.count, v.fit, v.buried)
-MOLSURF_MEMBERS(PocketsReport::Pocket, v.volume, v.area, v.depth, v.radius, v.centre, v.open,
+MOLSURF_MEMBERS(Report::Group, v.name, v.atoms, v.area, v.volume, v.color, v.aloneArea)
+MOLSURF_MEMBERS(Report::Interface, v.first, v.second, v.area, v.count, v.fit, v.buried)
+MOLSURF_MEMBERS(Report::Pockets::Pocket, v.volume, v.area, v.depth, v.radius, v.centre, v.open,
                 v.mouths, v.neighbours, v.lining)
-MOLSURF_MEMBERS(PocketsReport, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list)
+MOLSURF_MEMBERS(Report::Pockets, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list)
 MOLSURF_MEMBERS(Report::Pore::Station, v.place, v.normal, v.distance, v.radius, v.isBottleneck,
                 v.lining)
 MOLSURF_MEMBERS(Report::Pore, v.axis, v.stations)
-MOLSURF_MEMBERS(ResolutionReport, v.select, v.resolution, v.atoms, v.level)
-MOLSURF_MEMBERS(PartReport, v.name, v.atoms, v.surface)
-MOLSURF_MEMBERS(InstanceReport, v.part, v.name, v.matrix)
-MOLSURF_MEMBERS(SymmetryReport, v.pointGroup, v.order, v.copies, v.deviation, v.gap, v.openVertices)
+MOLSURF_MEMBERS(Report::Resolution, v.select, v.resolution, v.atoms, v.level)
+MOLSURF_MEMBERS(Report::Part, v.name, v.atoms, v.surface)
+MOLSURF_MEMBERS(Report::Copy, v.part, v.name, v.matrix)
+MOLSURF_MEMBERS(Report::Symmetry, v.pointGroup, v.order, v.copies, v.deviation, v.gap,
+                v.openVertices)
 MOLSURF_MEMBERS(Report, v.program, v.version, v.command, v.input, v.atoms, v.voxel, v.center,
                 v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.pockets, v.pore,
                 v.parts, v.instances, v.symmetry, v.evolution, v.activeVoxels, v.gridBytes,

@@ -570,7 +570,7 @@ void addSurface(nb::module_& m)
     add("atoms", [](MadeSurface& s, nb::handle) { return s.atoms->own(); });
     add("cavities", [](MadeSurface& s, nb::handle) {
         std::vector<std::array<double, 2>> all;
-        for (const Cavity& cavity : s.result.report.surface.cavities)
+        for (const SurfaceReport::Cavity& cavity : s.result.report.surface.cavities)
             all.push_back({cavity.area, cavity.volume});
         return owned<double>(std::move(all));
     });

@@ -16,8 +16,8 @@ FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelse
            "io", "picture", "surface", "bricks", "tools"]
 # The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it.
 FACE = {"error.h": "core", "progress.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "pockets",
-        "report.h": "levelset", "mesh.h": "mesh", "surface.h": "surface", "files.h": "tools", "compare.h": "mesh",
-        "bricks.h": "bricks", "distance.h": "surface", "settings.h": "surface", "tables.h": "surface", "molsurf.h": "tools"}
+        "report.h": "levelset", "mesh.h": "mesh", "surface.h": "surface", "files.h": "tools",
+        "bricks.h": "bricks", "settings.h": "surface", "molsurf.h": "tools"}
 # Folders that know less than their place allows.
 ONLY = {
     "balls": {"core"},

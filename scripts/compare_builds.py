@@ -22,7 +22,7 @@ DATA = pathlib.Path(__file__).resolve().parents[1] / "tests" / "data"
 STRUCTURES = ["1crn.pdb", "1ubq.pdb", "1a8o.cif.gz", "bpti.pdb.gz", "1d3z.pdb.gz", "4at1.ent.gz"]
 KINDS = ["variational", "ses", "sas", "vdw", "gaussian"]
 FILES = "-o {0}.vdb -o {0}.ply -o {0}.glb -o {0}.json"
-ASIDE = {"seconds", "peak_memory_bytes", "command", "commit", "stages"}
+ASIDE = {"seconds", "peak_memory_bytes", "command", "commit", "stages", "input_sha256"}
 
 
 def cases():

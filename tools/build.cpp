@@ -58,7 +58,7 @@ void completeReport(const Call& call, const BallSet& balls, const Report& read, 
     beginReport(call, report);
     report.voxel = call.options.grid ? call.options.voxel : 0.0;
     for (const Instance& instance : balls.placement.instances) {
-        InstanceReport& copy = report.instances.emplace_back();
+        Report::Copy& copy = report.instances.emplace_back();
         copy.part = instance.part;
         copy.name = instance.name;
         for (std::size_t row = 0; row < 3; ++row) {
@@ -293,7 +293,7 @@ namespace
 {
 
 /// A line on what was found.
-std::string pocketsLine(const PocketsReport& pockets)
+std::string pocketsLine(const Report::Pockets& pockets)
 {
     std::string line = "pockets: " + std::to_string(pockets.list.size());
     if (!pockets.list.empty())

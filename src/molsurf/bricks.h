@@ -39,14 +39,12 @@ struct BrickPlan {
     std::size_t atoms = 0;    ///< number of balls
     bool keepsMemory = false; ///< whether a process keeps the memory of one brick for the next
                               ///< instead of returning it to the system
+
+    /// The number of steps of the flow if the options do not fix it, and that where lambda is
+    /// large: bricks have to make the same number. A run of a whole molecule stops after 2 or 3
+    /// steps at the default lambda.
+    static constexpr int defaultSteps = 5, defaultFrontSteps = 15;
 };
-
-/// The number of steps of the flow if the options do not fix it: bricks have to make the same
-/// number. A run of a whole molecule stops after 2 or 3 steps at the default lambda.
-constexpr int defaultBrickSteps = 5;
-
-/// The same where lambda is large.
-constexpr int defaultFrontSteps = 15;
 
 /// Limits for planBricks(): a number of bricks or a memory limit. Exactly one of both is set.
 struct BrickLimits {

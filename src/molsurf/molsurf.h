@@ -7,8 +7,6 @@
 #include "molsurf/atoms.h"
 #include "molsurf/ball.h"
 #include "molsurf/bricks.h"
-#include "molsurf/compare.h"
-#include "molsurf/distance.h"
 #include "molsurf/error.h"
 #include "molsurf/files.h"
 #include "molsurf/mesh.h"
@@ -17,4 +15,3 @@
 #include "molsurf/report.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface.h"
-#include "molsurf/tables.h"

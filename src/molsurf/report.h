@@ -18,12 +18,6 @@ namespace molsurf
 
 struct BallSet;
 
-/// A cavity: a closed inner wall of the surface.
-struct Cavity {
-    double area;   ///< area of the wall [Å^2]
-    double volume; ///< volume inside the wall [Å^3], > 0
-};
-
 /// The percentages that Statistics::percentiles has values for.
 constexpr std::array<int, 9> percents = {1, 5, 10, 25, 50, 75, 90, 95, 99};
 
@@ -63,6 +57,12 @@ struct SurfaceIntegrals {
 
 /// Area, volume and topology of a closed surface.
 struct SurfaceReport {
+    /// A cavity: a closed inner wall of the surface.
+    struct Cavity {
+        double area;   ///< area of the wall [Å^2]
+        double volume; ///< volume inside the wall [Å^3], > 0
+    };
+
     /// How well the triangles of a mesh are made.
     struct Shape {
         double leastAngle = 180.0;            ///< of all triangles [degree]
@@ -167,46 +167,6 @@ struct EvolutionReport {
     std::optional<Gaps> walls{};
 };
 
-/// A group of atoms and its share of the surface.
-struct GroupReport {
-    std::string name;
-    std::size_t atoms = 0; ///< number of its balls
-    double area = 0.0;     ///< area of the surface nearest to its balls [Å^2]; the areas of all
-                           ///< groups and of "other", the atoms without one, add up to the whole
-    double volume = 0.0;   ///< volume inside the surface nearest to its balls [Å^3]; adds up, too
-    std::string color;     ///< "#rrggbb" if the surface is coloured by group, else empty
-    std::optional<double> aloneArea{}; ///< area of the surface of the group alone [Å^2], if
-                                       ///< the report has interfaces
-};
-
-/// The area that two groups of atoms bury between them.
-struct InterfaceReport {
-    /// A ball whose surface another group buries.
-    struct Buried {
-        std::size_t ball = 0;  ///< its index in the caller's BallSet
-        bool ofFirst = true;   ///< whether it belongs to the first of the groups
-        double alone = 0.0;    ///< its area on the surface of its group alone [Å^2]
-        double together = 0.0; ///< its area on the surface of both [Å^2]
-    };
-    /// How well the solvent-excluded surfaces of the groups fit, each alone, for a probe of 1.7 Å.
-    /// docs/complexes.md. Not a number where no part of them is buried deep enough.
-    struct Fit {
-        double shape = std::numeric_limits<double>::quiet_NaN();    ///< Sc, at most 1
-        double distance = std::numeric_limits<double>::quiet_NaN(); ///< of the surfaces, median [Å]
-        double gapVolume = 0.0; ///< between them, where no probe fits [Å^3]
-        double gapIndex = std::numeric_limits<double>::quiet_NaN(); ///< gapVolume by the area that
-                                                                    ///< each buries [Å]
-    };
-
-    std::string first, second; ///< names of the groups
-    double area = 0.0;         ///< (A_first + A_second - A_both) / 2, each surfaced alone [Å^2]
-    std::size_t count = 1;     ///< how many such there are in a whole made by symmetry
-    Fit fit{};
-    /// The balls whose area changes, if areas of balls were asked for; half of what they lose adds
-    /// up to `area`.
-    std::vector<Buried> buried{};
-};
-
 /// Rows of named values.
 struct Table {
     /// A column of a table.
@@ -223,90 +183,131 @@ struct Table {
     std::string note{}; ///< what all rows have in common; "": nothing
 };
 
-/// The pockets, and what was asked for.
-struct PocketsReport {
-    /// A pocket: space that a small probe reaches and a large one does not. docs/pockets.md.
-    struct Pocket {
-        /// Where a pocket ends because the large probe comes near.
-        struct Mouth {
-            double area = 0.0; ///< [Å^2]
-            double radius =
-                0.0; ///< of the largest ball that gets out of the widest place there [Å]
-        };
-        /// A ball that has a part of the pocket's wall.
-        struct Lining {
-            std::size_t ball; ///< its index in the caller's BallSet
-            double area;      ///< of its part [Å^2]
-        };
-
-        double volume = 0.0;               ///< [Å^3]
-        double area = 0.0;                 ///< of the wall [Å^2]
-        double depth = 0.0;                ///< of its deepest point [Å]
-        double radius = 0.0;               ///< of the largest ball in it [Å]
-        std::array<double, 3> centre = {}; ///< of its volume [Å]
-        bool open = false;                 ///< whether a way leads out, perhaps by neighbours
-        std::vector<Mouth> mouths{};       ///< the largest first
-        std::vector<std::size_t>
-            neighbours{};             ///< pockets beyond necks, by their places in the list
-        std::vector<Lining> lining{}; ///< in ascending order of the balls
-    };
-
-    double probeIn = 0.0, probeOut = 0.0, cut = 0.0, neck = 0.0; ///< as PocketRule has them
-    double voxel = 0.0;                                          ///< that they are found on [Å]
-    std::vector<Pocket> list;                                    ///< the largest first
-
-    /// A row for every pocket that was found, the largest first: pocket (its number from 1),
-    /// volume, area, depth_A, radius_A (of the largest ball in it), x_A, y_A, z_A (its middle),
-    /// open (1: a way leads out), mouths, mouth_area (of all), mouth_radius_A (of the largest ball
-    /// that gets out), neighbours (numbers of pockets beyond necks), hydrophobicity (mean over the
-    /// wall, of Kyte and Doolittle), charge (of side chains, +1 of Lys and Arg, -1 of Asp and Glu),
-    /// atoms (how many line it), residues and atom_ids (which). Without names of the atoms what
-    /// needs these is empty.
-    /// @param[in] atoms  that they are of
-    Table table(const BallSet& atoms) const;
-};
-
-/// The atoms that have one resolution.
-struct ResolutionReport {
-    std::string select;      ///< the selection of the rule; empty: all
-    double resolution = 0.0; ///< d [Å]
-    std::size_t atoms = 0;   ///< number of balls that have it
-    double level = 0.0;      ///< Decay::level; 0 where volumes are not matched
-};
-
-/// The beads that stand for several atoms.
-struct CoarseReport {
-    std::size_t beads = 0; ///< number of beads
-    std::size_t atoms = 0; ///< number of atoms that they stand for
-};
-
-/// The surface that a part of the atoms has of its own.
-struct PartReport {
-    std::string name;
-    std::size_t atoms = 0; ///< number of its balls
-    SurfaceReport surface;
-};
-
-/// A copy of a part that is surfaced once.
-struct InstanceReport {
-    std::size_t part = 0; ///< index in Report::parts; 0 if there is one prototype
-    std::string name;     ///< of the operator that places it
-    /// x -> matrix x of points (x, y, z, 1) [Å], row by row; moved as the files are.
-    std::array<std::array<double, 4>, 4> matrix;
-};
-
-/// How a whole was made from a unit of it, by symmetry.
-struct SymmetryReport {
-    std::string pointGroup; ///< Schoenflies; "" if it is none of C, D, T, O and I
-    std::size_t order = 1;  ///< number of units
-    std::size_t copies = 1; ///< copies of the assembly in a unit
-    double deviation = 0.0; ///< farthest that a copy lies from where a rotation brings it [Å]
-    double gap = 0.0;       ///< largest gap between units that was closed [Å]
-    std::size_t openVertices = 0; ///< edges of a unit's border that fit none of a neighbour's
-};
-
 /// The whole report.
 struct Report {
+    /// The beads that stand for several atoms.
+    struct Coarse {
+        std::size_t beads = 0; ///< number of beads
+        std::size_t atoms = 0; ///< number of atoms that they stand for
+    };
+
+    /// The atoms that have one resolution.
+    struct Resolution {
+        std::string select;      ///< the selection of the rule; empty: all
+        double resolution = 0.0; ///< d [Å]
+        std::size_t atoms = 0;   ///< number of balls that have it
+        double level = 0.0;      ///< Decay::level; 0 where volumes are not matched
+    };
+
+    /// A group of atoms and its share of the surface.
+    struct Group {
+        std::string name;
+        std::size_t atoms = 0; ///< number of its balls
+        double area = 0.0;   ///< area of the surface nearest to its balls [Å^2]; the areas of all
+                             ///< groups and of "other", the atoms without one, add up to the whole
+        double volume = 0.0; ///< volume inside the surface nearest to its balls [Å^3]; adds up, too
+        std::string color;   ///< "#rrggbb" if the surface is coloured by group, else empty
+        std::optional<double> aloneArea{}; ///< area of the surface of the group alone [Å^2], if
+                                           ///< the report has interfaces
+    };
+
+    /// The area that two groups of atoms bury between them.
+    struct Interface {
+        /// A ball whose surface another group buries.
+        struct Buried {
+            std::size_t ball = 0;  ///< its index in the caller's BallSet
+            bool ofFirst = true;   ///< whether it belongs to the first of the groups
+            double alone = 0.0;    ///< its area on the surface of its group alone [Å^2]
+            double together = 0.0; ///< its area on the surface of both [Å^2]
+        };
+        /// How well the solvent-excluded surfaces of the groups fit, each alone, for a probe of 1.7
+        /// Å. docs/complexes.md. Not a number where no part of them is buried deep enough.
+        struct Fit {
+            double shape = std::numeric_limits<double>::quiet_NaN(); ///< Sc, at most 1
+            double distance =
+                std::numeric_limits<double>::quiet_NaN(); ///< of the surfaces, median [Å]
+            double gapVolume = 0.0; ///< between them, where no probe fits [Å^3]
+            double gapIndex = std::numeric_limits<double>::quiet_NaN(); ///< gapVolume by the area
+                                                                        ///< that each buries [Å]
+        };
+
+        std::string first, second; ///< names of the groups
+        double area = 0.0;     ///< (A_first + A_second - A_both) / 2, each surfaced alone [Å^2]
+        std::size_t count = 1; ///< how many such there are in a whole made by symmetry
+        Fit fit{};
+        /// The balls whose area changes, if areas of balls were asked for; half of what they lose
+        /// adds up to `area`.
+        std::vector<Buried> buried{};
+    };
+
+    /// The surface that a part of the atoms has of its own.
+    struct Part {
+        std::string name;
+        std::size_t atoms = 0; ///< number of its balls
+        SurfaceReport surface;
+    };
+
+    /// A copy of a part that is surfaced once.
+    struct Copy {
+        std::size_t part = 0; ///< index in Report::parts; 0 if there is one prototype
+        std::string name;     ///< of the operator that places it
+        /// x -> matrix x of points (x, y, z, 1) [Å], row by row; moved as the files are.
+        std::array<std::array<double, 4>, 4> matrix;
+    };
+
+    /// How a whole was made from a unit of it, by symmetry.
+    struct Symmetry {
+        std::string pointGroup; ///< Schoenflies; "" if it is none of C, D, T, O and I
+        std::size_t order = 1;  ///< number of units
+        std::size_t copies = 1; ///< copies of the assembly in a unit
+        double deviation = 0.0; ///< farthest that a copy lies from where a rotation brings it [Å]
+        double gap = 0.0;       ///< largest gap between units that was closed [Å]
+        std::size_t openVertices = 0; ///< edges of a unit's border that fit none of a neighbour's
+    };
+
+    /// The pockets, and what was asked for.
+    struct Pockets {
+        /// A pocket: space that a small probe reaches and a large one does not. docs/pockets.md.
+        struct Pocket {
+            /// Where a pocket ends because the large probe comes near.
+            struct Mouth {
+                double area = 0.0; ///< [Å^2]
+                double radius =
+                    0.0; ///< of the largest ball that gets out of the widest place there [Å]
+            };
+            /// A ball that has a part of the pocket's wall.
+            struct Lining {
+                std::size_t ball; ///< its index in the caller's BallSet
+                double area;      ///< of its part [Å^2]
+            };
+
+            double volume = 0.0;               ///< [Å^3]
+            double area = 0.0;                 ///< of the wall [Å^2]
+            double depth = 0.0;                ///< of its deepest point [Å]
+            double radius = 0.0;               ///< of the largest ball in it [Å]
+            std::array<double, 3> centre = {}; ///< of its volume [Å]
+            bool open = false;                 ///< whether a way leads out, perhaps by neighbours
+            std::vector<Mouth> mouths{};       ///< the largest first
+            std::vector<std::size_t>
+                neighbours{};             ///< pockets beyond necks, by their places in the list
+            std::vector<Lining> lining{}; ///< in ascending order of the balls
+        };
+
+        double probeIn = 0.0, probeOut = 0.0, cut = 0.0, neck = 0.0; ///< as PocketRule has them
+        double voxel = 0.0;       ///< that they are found on [Å]
+        std::vector<Pocket> list; ///< the largest first
+
+        /// A row for every pocket that was found, the largest first: pocket (its number from 1),
+        /// volume, area, depth_A, radius_A (of the largest ball in it), x_A, y_A, z_A (its middle),
+        /// open (1: a way leads out), mouths, mouth_area (of all), mouth_radius_A (of the largest
+        /// ball that gets out), neighbours (numbers of pockets beyond necks), hydrophobicity (mean
+        /// over the wall, of Kyte and Doolittle), charge (of side chains, +1 of Lys and Arg, -1 of
+        /// Asp and Glu), atoms (how many line it), residues and atom_ids (which). Without names of
+        /// the atoms what needs these is empty.
+        /// @param[in] atoms  that they are of
+        Table table(const BallSet& atoms) const;
+    };
+
     /// A way through the molecule. docs/pores.md.
     struct Pore {
         /// The largest ball of a section.
@@ -350,14 +351,14 @@ struct Report {
     std::optional<std::array<double, 3>> center; ///< point of the input that is the origin of the
                                                  ///< files [Å], if the surface was moved
     SurfaceReport surface;
-    std::optional<CoarseReport> coarse;        ///< present if there are beads
-    std::vector<ResolutionReport> resolutions; ///< one for each rule, in their order
-    std::vector<GroupReport> groups;
-    std::vector<InterfaceReport> interfaces; ///< of groups that touch, if they were asked for
-    std::vector<PartReport> parts; ///< surfaces of their own, of which `surface` is the sum; empty
-                                   ///< if there is only one
-    std::vector<InstanceReport> instances;    ///< copies; `surface` has each distinct one once
-    std::optional<SymmetryReport> symmetry;   ///< present if the whole follows from a unit
+    std::optional<Coarse> coarse;        ///< present if there are beads
+    std::vector<Resolution> resolutions; ///< one for each rule, in their order
+    std::vector<Group> groups;
+    std::vector<Interface> interfaces; ///< of groups that touch, if they were asked for
+    std::vector<Part> parts;     ///< surfaces of their own, of which `surface` is the sum; empty
+                                 ///< if there is only one
+    std::vector<Copy> instances; ///< copies; `surface` has each distinct one once
+    std::optional<Symmetry> symmetry;         ///< present if the whole follows from a unit
     std::optional<EvolutionReport> evolution; ///< absent for kinds without a flow
     std::size_t activeVoxels = 0;             ///< number of active voxels of the grid `surface`
     std::size_t gridBytes = 0;                ///< memory of the grid `surface` [byte]
@@ -366,7 +367,7 @@ struct Report {
     std::size_t peakMemoryBytes = 0;                     ///< of the process
     int threads = 0;                                     ///< number of threads that the run used
     std::vector<std::string> warnings;                   ///< one line each
-    std::optional<PocketsReport> pockets;                ///< if they were asked for
+    std::optional<Pockets> pockets;                      ///< if they were asked for
     std::optional<Pore> pore;                            ///< if it was asked for
     std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are
                          ///< none

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Makes the molecular surface of atoms.
+/// Makes the molecular surface of atoms, finds where points lie to it, and makes its tables.
 
 #include "molsurf/atoms.h"
 #include "molsurf/mesh.h"
@@ -16,18 +16,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace molsurf
 {
-
-/// A vertex on the border of a symmetric unit (Placement::unit): in unit k it is the vertex `other`
-/// of the unit that motion k after `motion` makes.
-struct SharedVertex {
-    std::uint32_t vertex;
-    std::int32_t motion;
-    std::uint32_t other;
-};
 
 /// Two balls that touch.
 struct ContactArea {
@@ -38,6 +32,14 @@ struct ContactArea {
 
 /// The surface of a molecule, as a level set and as a mesh.
 struct MolecularSurface {
+    /// A vertex on the border of a symmetric unit (Placement::unit): in unit k it is the vertex
+    /// `other` of the unit that motion k after `motion` makes.
+    struct SharedVertex {
+        std::uint32_t vertex;
+        std::int32_t motion;
+        std::uint32_t other;
+    };
+
     /// How a surface changes when a ball moves, in the order of the balls.
     struct Gradients {
         std::vector<openvdb::Vec3d> volume; ///< derivatives of the volume by the centre [Å^2]
@@ -152,5 +154,93 @@ std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double pro
 MolecularSurface::Gradients surfaceGradients(const BallSet& atoms, const SurfaceSpec& spec,
                                              const Mesh& mesh,
                                              const Progress& progress = Progress());
+
+/// Where a point lies to a surface.
+struct PointDistance {
+    double distance = 0.0;       ///< from the surface, negative inside [Å]
+    openvdb::Vec3d closest{0.0}; ///< the point of the surface that is nearest [Å]
+    openvdb::Vec3d normal{0.0};  ///< of the surface there, unit, outward
+    std::int32_t ball = -1;      ///< the ball whose own surface |x - x_i| = r_i is nearest to the
+                                 ///< point; of equals the first
+};
+
+/// Finds where points lie to a surface, near or far.
+///
+/// Solvent-accessible and van der Waals surfaces are those of the balls themselves, exact to 1e-5
+/// Å. Of other surfaces, and of those that parts, filled cavities or thickened walls changed, it is
+/// the zero set of the spline where that reaches, and the mesh elsewhere; an open mesh has no
+/// inside. The spline is that of the mesh if the fields have it, and else one through the level
+/// set, some thousandths of an Å from it.
+///
+/// Immutable once made; safe to use from all threads.
+class SurfaceDistance
+{
+public:
+    /// @param[in] atoms    that the surface was made of
+    /// @param[in] options  that it was made with
+    /// @param[in] surface  what makeSurface() gave; it may be changed or go afterwards
+    /// @throws Error(ErrorKind::Input) if there are no balls, or neither mesh nor closed form
+    /// @throws Cancelled if the progress object says so
+    SurfaceDistance(const BallSet& atoms, const SurfaceOptions& options,
+                    const MolecularSurface& surface, const Progress& progress = Progress());
+    ~SurfaceDistance();
+    SurfaceDistance(SurfaceDistance&& other) noexcept;
+    SurfaceDistance& operator=(SurfaceDistance&& other) noexcept;
+
+    /// @param[in] points  within 1e6 Å of the origin
+    /// @return one a point
+    /// @throws Error(ErrorKind::Input) that names the first point at fault, by its index
+    /// @throws Cancelled if the progress object says so
+    std::vector<PointDistance> at(const std::vector<openvdb::Vec3d>& points,
+                                  const Progress& progress = Progress()) const;
+
+private:
+    struct Parts;
+    std::unique_ptr<const Parts> parts_;
+};
+
+/// A row for every ball: chain, residue, number, insertion_code, label_chain, atom, altloc,
+/// element, atom_id (its place in the file, from 0), radius_A, area, and depth_A: how deep its
+/// centre lies below the outer solvent-excluded surface.
+/// @param[in] probe  radius that the surface is made with [Å]; 0: depth below the balls themselves
+/// @throws Error(ErrorKind::Usage) if the atoms have no names or the result has no areas of balls,
+///         or of others; the message names the option that makes them
+Table atomTable(const BallSet& atoms, double probe, const MolecularSurface& result);
+
+/// A row for every residue: chain, residue, number, insertion_code, label_chain, atoms (how many
+/// balls), area, and for solvent-accessible surfaces relative_accessibility, the area's share of
+/// the largest that such a residue has between two glycines, not a number where that is not known.
+/// depth_A is the mean of its balls' depths, and ca_depth_A that of its CA.
+/// If the balls have values mean_NAME: the mean of the value on the residue's part of the surface,
+/// and integral_NAME_A2: its integral there, in the value's unit times Å^2.
+/// @param[in] probe  as for atomTable(); accessibilities are relative at 1.4 alone
+/// @throws as atomTable()
+Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& result);
+
+/// The area that relative_accessibility is a share of: the largest solvent-accessible area of a
+/// residue of this name between two glycines, at a probe of 1.4 Å [Å^2]; none for what is no amino
+/// acid.
+std::optional<double> largestArea(const std::string& residue);
+
+/// The partners in the rows of contactTable().
+enum class ContactLevel { Atom, Residue, Chain };
+
+/// Returns the word of the command line for a level: atom, residue, chain.
+const char* nameOf(ContactLevel level);
+
+/// A row for every two atoms, residues or chains that touch: the names of both, of atoms the
+/// distance_A of their centres, and the area of the contact. Contacts within a residue or a chain
+/// do not count for these.
+/// @throws Error(ErrorKind::Usage) if the atoms have no names, or the result no contacts
+Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurface& result);
+
+/// A row for every residue that an interface buries: group_1 and group_2, the group that it belongs
+/// to, its name, area_alone and area_together on the surfaces of its group alone and of both,
+/// buried_area, their difference, and area, half of that: its part of the interface. The areas
+/// of an interface's rows add up to Report::Interface::area. Each row has the fit of the pair, too:
+/// shape_complementarity, median_distance_A, gap_volume and gap_index_A.
+/// @throws Error(ErrorKind::Usage) if the atoms have no names, or the report no interfaces with
+///         the balls that they bury
+Table interfaceTable(const BallSet& atoms, const Report& report);
 
 } // namespace molsurf

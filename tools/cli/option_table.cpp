@@ -666,8 +666,8 @@ OptionGroup flowOptions()
              setting("flow", structures), setting("max-steps", structures & ~BricksPlan),
              with(setting("steps", structures),
                   [](Option& o) {
-                      o.preset = std::to_string(defaultBrickSteps) + " in bricks, " +
-                                 std::to_string(defaultFrontSteps) + " at a large lambda";
+                      o.preset = std::to_string(BrickPlan::defaultSteps) + " in bricks, " +
+                                 std::to_string(BrickPlan::defaultFrontSteps) + " at a large lambda";
                   }),
              setting("tolerance", structures), setting("spline-level", wholes | Compare)}};
 }

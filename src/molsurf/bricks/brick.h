@@ -53,9 +53,9 @@ struct BrickSums {
     std::optional<EvolutionReport> evolution; ///< sums over the owned voxels, step by step
     Displacements displacements;              ///< of the last step, at the owned voxels
     double maxResidual = 0.0;                 ///< largest |S| at a vertex [Å]
-    std::size_t kinkVertices = 0;    ///< owned vertices within two voxels of a kink of the distance
-    std::size_t unitVertices = 0;    ///< the others with | |grad S| - 1 | < 0.03
-    std::vector<GroupReport> groups; ///< areas of the owned triangles, at last those of no group
+    std::size_t kinkVertices = 0; ///< owned vertices within two voxels of a kink of the distance
+    std::size_t unitVertices = 0; ///< the others with | |grad S| - 1 | < 0.03
+    std::vector<Report::Group> groups; ///< areas of the owned triangles, at last those of no group
     std::vector<std::pair<std::string, double>> seconds; ///< stage, wall seconds
 };
 

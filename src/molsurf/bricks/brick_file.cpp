@@ -230,7 +230,7 @@ std::string headerText(const BrickHeader& h)
                              {"metadata", g.metadata},
                              {"leaves", json(g.leaves)}});
     }
-    for (const GroupReport& g : h.sums.groups)
+    for (const Report::Group& g : h.sums.groups)
         groups.push_back(
             Json{{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}, {"color", g.color}});
     for (const auto& [stage, time] : h.sums.seconds) seconds.push_back(Json{stage, time});
@@ -291,7 +291,7 @@ BrickHeader parseHeader(const std::string& text)
     h.sums.kinkVertices = count(j.at("kink_vertices"));
     h.sums.unitVertices = count(j.at("unit_vertices"));
     for (const Json& g : j.at("groups")) {
-        GroupReport group;
+        Report::Group group;
         group.name = g.at("name");
         group.atoms = count(g.at("atoms"));
         group.area = jsonNumber<double>(g.at("area"));

@@ -30,7 +30,7 @@ bool fits(const BrickHeader& a, const BrickHeader& b)
                            x.background == y.background && x.half == y.half;
                 }) &&
            same(a.sums.groups, b.sums.groups,
-                [](const GroupReport& x, const GroupReport& y) {
+                [](const Report::Group& x, const Report::Group& y) {
                     return x.name == y.name && x.atoms == y.atoms;
                 }) &&
            a.sums.evolution.has_value() == b.sums.evolution.has_value() &&
@@ -75,10 +75,10 @@ void addGroups(const std::vector<BrickFile>& bricks, Report& report)
     std::size_t rest = report.atoms;
     double sum = 0.0;
     for (const BrickFile& brick : bricks) {
-        const std::vector<GroupReport>& part = brick.header().sums.groups;
+        const std::vector<Report::Group>& part = brick.header().sums.groups;
         if (report.groups.empty() && !part.empty()) {
             report.groups = part;
-            for (GroupReport& group : report.groups) {
+            for (Report::Group& group : report.groups) {
                 group.area = 0.0;
                 group.volume = std::numeric_limits<double>::quiet_NaN(); // not summed by bricks
                 if (group.atoms > rest) brick.refuse("has groups of more atoms than the plan");
@@ -93,7 +93,7 @@ void addGroups(const std::vector<BrickFile>& bricks, Report& report)
     }
     if (report.groups.empty()) return;
     if (sum > 0.0)
-        for (GroupReport& group : report.groups) group.area *= report.surface.area / sum;
+        for (Report::Group& group : report.groups) group.area *= report.surface.area / sum;
     report.groups.back().atoms = rest;
     if (rest == 0 && report.groups.back().area == 0.0) report.groups.pop_back();
 }

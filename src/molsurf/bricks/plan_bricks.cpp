@@ -490,7 +490,7 @@ int stepsOf(const SurfaceOptions& options)
 {
     if (restsInClosedForm(options)) return 0;
     if (options.evolution.steps) return *options.evolution.steps;
-    return startsCoarse(options) ? defaultFrontSteps : defaultBrickSteps;
+    return startsCoarse(options) ? BrickPlan::defaultFrontSteps : BrickPlan::defaultSteps;
 }
 
 /// Cuts by the limits; without any the whole is one brick.

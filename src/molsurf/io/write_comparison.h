@@ -6,7 +6,6 @@
 
 #include "molsurf/color/color_map.h"
 #include "molsurf/color/legend.h"
-#include "molsurf/compare.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
 

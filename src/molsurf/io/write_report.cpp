@@ -40,7 +40,7 @@ Json shapeJson(const SurfaceReport::Shape& shape, std::size_t triangles)
 Json surfaceJson(const SurfaceReport& surface)
 {
     Json cavities = Json::array();
-    for (const Cavity& cavity : surface.cavities)
+    for (const SurfaceReport::Cavity& cavity : surface.cavities)
         cavities.push_back(Json{{"area", cavity.area}, {"volume", cavity.volume}});
     const auto& integrals = surface.integrals;
     const auto known = [&](const Json& value) { return surface.piecesKnown ? value : Json(); };
@@ -115,10 +115,10 @@ Json evolutionJson(const EvolutionReport& evolution)
         {"volume", evolution.volume}};
 }
 
-Json groupsJson(const std::vector<GroupReport>& groups)
+Json groupsJson(const std::vector<Report::Group>& groups)
 {
     Json out = Json::array();
-    for (const GroupReport& g : groups) {
+    for (const Report::Group& g : groups) {
         Json entry = {{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}, {"volume", g.volume}};
         if (!g.color.empty()) entry["color"] = g.color;
         if (g.aloneArea) entry["alone_area"] = *g.aloneArea;
@@ -127,10 +127,10 @@ Json groupsJson(const std::vector<GroupReport>& groups)
     return out;
 }
 
-Json interfacesJson(const std::vector<InterfaceReport>& interfaces)
+Json interfacesJson(const std::vector<Report::Interface>& interfaces)
 {
     Json out = Json::array();
-    for (const InterfaceReport& i : interfaces) {
+    for (const Report::Interface& i : interfaces) {
         out.push_back(Json{{"groups", {i.first, i.second}},
                            {"buried_area", i.area},
                            {"count", i.count},
@@ -150,10 +150,10 @@ Json numbersJson(const std::vector<std::size_t>& places)
     return out;
 }
 
-Json pocketJson(const PocketsReport::Pocket& pocket)
+Json pocketJson(const Report::Pockets::Pocket& pocket)
 {
     Json mouths = Json::array();
-    for (const PocketsReport::Pocket::Mouth& mouth : pocket.mouths)
+    for (const Report::Pockets::Pocket::Mouth& mouth : pocket.mouths)
         mouths.push_back(Json{{"area", mouth.area}, {"radius", mouth.radius}});
     return {{"volume", pocket.volume},     {"area", pocket.area},
             {"depth", pocket.depth},       {"radius", pocket.radius},
@@ -161,10 +161,10 @@ Json pocketJson(const PocketsReport::Pocket& pocket)
             {"mouths", std::move(mouths)}, {"neighbors", numbersJson(pocket.neighbours)}};
 }
 
-Json pocketsJson(const PocketsReport& pockets)
+Json pocketsJson(const Report::Pockets& pockets)
 {
     Json list = Json::array();
-    for (const PocketsReport::Pocket& pocket : pockets.list) list.push_back(pocketJson(pocket));
+    for (const Report::Pockets::Pocket& pocket : pockets.list) list.push_back(pocketJson(pocket));
     return {{"probe_in", pockets.probeIn}, {"probe_out", pockets.probeOut},
             {"cut", pockets.cut},          {"neck", pockets.neck},
             {"voxel", pockets.voxel},      {"list", std::move(list)}};
@@ -193,20 +193,20 @@ Json poreJson(const Report::Pore& pore)
               {"center", std::move(centers)}}}};
 }
 
-Json partsJson(const std::vector<PartReport>& parts)
+Json partsJson(const std::vector<Report::Part>& parts)
 {
     Json out = Json::array();
-    for (const PartReport& part : parts) {
+    for (const Report::Part& part : parts) {
         out.push_back(Json{
             {"name", part.name}, {"atoms", part.atoms}, {"surface", surfaceJson(part.surface)}});
     }
     return out;
 }
 
-Json resolutionJson(const std::vector<ResolutionReport>& resolutions)
+Json resolutionJson(const std::vector<Report::Resolution>& resolutions)
 {
     Json out = Json::array();
-    for (const ResolutionReport& r : resolutions) {
+    for (const Report::Resolution& r : resolutions) {
         out.push_back(Json{{"selection", r.select.empty() ? "all" : r.select},
                            {"resolution", r.resolution},
                            {"atoms", r.atoms},
@@ -215,15 +215,15 @@ Json resolutionJson(const std::vector<ResolutionReport>& resolutions)
     return out;
 }
 
-Json instancesJson(const std::vector<InstanceReport>& instances)
+Json instancesJson(const std::vector<Report::Copy>& instances)
 {
     Json out = Json::array();
-    for (const InstanceReport& i : instances)
+    for (const Report::Copy& i : instances)
         out.push_back(Json{{"part", i.part}, {"operator", i.name}, {"matrix", i.matrix}});
     return out;
 }
 
-Json symmetryJson(const SymmetryReport& s)
+Json symmetryJson(const Report::Symmetry& s)
 {
     return {{"point_group", s.pointGroup}, {"order", s.order}, {"copies_in_unit", s.copies},
             {"deviation", s.deviation},    {"gap", s.gap},     {"open_vertices", s.openVertices}};
@@ -267,7 +267,7 @@ Json orNull(const std::string& text)
     return text.empty() ? Json() : Json(text);
 }
 
-Json coarseJson(const CoarseReport& coarse)
+Json coarseJson(const Report::Coarse& coarse)
 {
     return {{"beads", coarse.beads}, {"atoms", coarse.atoms}};
 }

@@ -18,7 +18,7 @@ namespace
 
 using Lanes = FootPoints::Lanes;
 
-constexpr float negligible = 2e-4f;
+constexpr float leastError = 2e-4f;    // of the expansion that is worth a step [voxel]
 constexpr float settledEnough = 5e-4f; // after a step
 constexpr float sharpest = 4.0f;       // curvature of a crease [1/voxel]
 
@@ -57,7 +57,7 @@ void LeafDistances::compute(const std::int32_t* index, const std::uint16_t* voxe
             const float curvature2 = feet.kappa[l] * feet.kappa[l] - 2.0f * feet.gauss[l];
             const Vec3f d = lane(step, l);
             if (std::abs(sign[l] * distance[l] - level) >= sharp ||
-                a2 * a2 * a2 * curvature2 < negligible * negligible) {
+                a2 * a2 * a2 * curvature2 < leastError * leastError) {
                 continue;
             }
             const int v = voxels[first + l];

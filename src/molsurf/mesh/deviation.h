@@ -4,7 +4,7 @@
 /// @file
 /// Measures how far one surface is from another. docs/math.md, section 11.
 
-#include "molsurf/compare.h"
+#include "molsurf/mesh.h"
 #include "molsurf/mesh/distance.h"
 #include "molsurf/progress.h"
 

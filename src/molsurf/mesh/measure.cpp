@@ -189,7 +189,9 @@ void dropTopology(SurfaceReport& report)
 void sortCavities(SurfaceReport& report)
 {
     std::stable_sort(report.cavities.begin(), report.cavities.end(),
-                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+                     [](const SurfaceReport::Cavity& a, const SurfaceReport::Cavity& b) {
+                         return a.volume > b.volume;
+                     });
 }
 
 void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report)

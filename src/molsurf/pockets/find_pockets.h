@@ -15,7 +15,7 @@
 namespace molsurf
 {
 
-using PocketReport = PocketsReport::Pocket;
+using PocketReport = Report::Pockets::Pocket;
 
 /// Pockets with less volume are left out [Å^3], as pyKVFinder does.
 constexpr double leastPocket = 5.0;

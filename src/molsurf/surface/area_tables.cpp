@@ -317,9 +317,9 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     Texts first, second, group;
     Numbers alone, together, buried, area;
     std::array<Numbers, 4> fits;
-    for (const InterfaceReport& interface : report.interfaces) {
+    for (const Report::Interface& interface : report.interfaces) {
         std::map<std::pair<bool, std::int32_t>, std::pair<double, double>> sums;
-        for (const InterfaceReport::Buried& b : interface.buried) {
+        for (const Report::Interface::Buried& b : interface.buried) {
             auto& sum = sums[{!b.ofFirst, names.residueOf[b.ball]}];
             sum.first += b.alone;
             sum.second += b.together;
@@ -333,7 +333,7 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
             together.push_back(sum.second);
             buried.push_back(sum.first - sum.second);
             area.push_back(0.5 * (sum.first - sum.second));
-            const InterfaceReport::Fit& fit = interface.fit;
+            const Report::Interface::Fit& fit = interface.fit;
             const std::array<double, 4> row = {fit.shape, fit.distance, fit.gapVolume,
                                                fit.gapIndex};
             for (std::size_t k = 0; k < row.size(); ++k) fits[k].push_back(row[k]);

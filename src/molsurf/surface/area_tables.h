@@ -4,7 +4,7 @@
 /// @file
 /// Columns that files add to the tables of areas.
 
-#include "molsurf/tables.h"
+#include "molsurf/surface.h"
 
 #include <string>
 #include <vector>

@@ -5,6 +5,7 @@
 #include "molsurf/error.h"
 #include "molsurf/grid/grid_like.h"
 #include "molsurf/levelset/redistance.h"
+#include "molsurf/mesh/check_arrays.h"
 #include "molsurf/mesh/extract.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
@@ -360,6 +361,20 @@ Comparison compare(const Operand& a, const DistanceTo& toA, const Operand& b, co
     both.bToA = distancesFrom(b.surface, toA, progress);
     both.hausdorff = std::max(both.aToB.max, both.bToA.max);
     return both;
+}
+
+Comparison compare(const Mesh& a, const Mesh& b, Progress* listener)
+{
+    Progress nobody;
+    Progress& progress = listener ? *listener : nobody;
+    for (const Mesh* mesh : {&a, &b}) {
+        if (mesh->triangles.empty())
+            throw Error(ErrorKind::Input, "compare: expected triangles, got a mesh without any");
+        checkArrays(*mesh);
+    }
+    const Operand first = operandOf(a, progress), second = operandOf(b, progress);
+    const DistanceTo toA(first.surface), toB(second.surface);
+    return compare(first, toA, second, toB, progress);
 }
 
 } // namespace molsurf

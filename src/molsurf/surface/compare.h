@@ -4,7 +4,7 @@
 /// @file
 /// Two surfaces side by side, whatever they were made from.
 
-#include "molsurf/compare.h"
+#include "molsurf/mesh.h"
 #include "molsurf/mesh/deviation.h"
 #include "molsurf/mesh/distance.h"
 #include "molsurf/progress.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/distance.h"
+#include "molsurf/surface.h"
 
 #include "molsurf/balls/ball_boundary.h"
 #include "molsurf/balls/ball_index.h"

@@ -165,12 +165,12 @@ double volumeOf(const BallBoundary& boundary, const Progress& progress)
 
 } // namespace
 
-InterfaceReport::Fit fitOf(const std::vector<Ball>& first, const std::vector<Ball>& second,
-                           const Progress& progress)
+Report::Interface::Fit fitOf(const std::vector<Ball>& first, const std::vector<Ball>& second,
+                             const Progress& progress)
 {
     const BallIndex firstIndex(first, cells), secondIndex(second, cells);
     const std::vector<Ball> a = nearOnes(first, secondIndex), b = nearOnes(second, firstIndex);
-    InterfaceReport::Fit fit;
+    Report::Interface::Fit fit;
     if (a.empty() || b.empty()) return fit;
     std::vector<Ball> both = a;
     both.insert(both.end(), b.begin(), b.end());

@@ -26,7 +26,7 @@ constexpr double fitReach = 8.3;
 ///      Mol. Biol. 234:946-950, 1993, doi:10.1006/jmbi.1993.1648
 ///
 /// @param[in] first, second  every ball finite
-InterfaceReport::Fit fitOf(const std::vector<Ball>& first, const std::vector<Ball>& second,
-                           const Progress& progress);
+Report::Interface::Fit fitOf(const std::vector<Ball>& first, const std::vector<Ball>& second,
+                             const Progress& progress);
 
 } // namespace molsurf

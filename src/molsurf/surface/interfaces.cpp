@@ -48,11 +48,11 @@ Areas areasOf(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls, Progr
 /// @param[in] alone     areas of each group alone
 /// @param[in] together  of both, the balls in ascending order
 /// @param[in] least     change of a ball that counts [Å^2]
-std::vector<InterfaceReport::Buried>
+std::vector<Report::Interface::Buried>
 buriedBalls(const std::array<const std::vector<std::size_t>*, 2>& groups,
             const std::array<const Areas*, 2>& alone, const Areas& together, double least)
 {
-    std::vector<InterfaceReport::Buried> out;
+    std::vector<Report::Interface::Buried> out;
     std::array<std::size_t, 2> next = {0, 0};
     for (const double area : together.ofBalls) {
         const auto atEnd = [&](std::size_t g) { return next[g] == groups[g]->size(); };
@@ -154,7 +154,7 @@ void measureInterfaces(const BallSet& atoms, const SurfaceSpec& spec, bool ofBal
             const double area = (aloneOf(a).total + aloneOf(member).total - both.total) / 2.0;
             if (area < noticeable) continue; // what buries nothing is no interface
             const bool mirrored = b == a && back == m;
-            InterfaceReport& found = report.interfaces.emplace_back();
+            Report::Interface& found = report.interfaces.emplace_back();
             found.first = groups[a].name;
             found.second = groups[b].name;
             if (m != 0) found.second += " of unit " + placement.instances[m].name;

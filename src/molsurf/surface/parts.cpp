@@ -182,9 +182,10 @@ void add(Report& sum, const Report& part, const std::string& name)
 {
     add(sum.surface, part.surface);
     sum.parts.push_back({name, part.atoms, part.surface});
-    for (const GroupReport& group : part.groups) {
-        const auto found = std::find_if(sum.groups.begin(), sum.groups.end(),
-                                        [&](const GroupReport& g) { return g.name == group.name; });
+    for (const Report::Group& group : part.groups) {
+        const auto found =
+            std::find_if(sum.groups.begin(), sum.groups.end(),
+                         [&](const Report::Group& g) { return g.name == group.name; });
         if (found == sum.groups.end()) {
             sum.groups.push_back(group);
             continue;
@@ -246,9 +247,11 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
         add(whole.report, result.report, part.name);
     }
     colorByCurvature(options.color, atoms.coloring, whole.mesh);
-    std::vector<Cavity>& cavities = whole.report.surface.cavities;
+    std::vector<SurfaceReport::Cavity>& cavities = whole.report.surface.cavities;
     std::stable_sort(cavities.begin(), cavities.end(),
-                     [](const Cavity& a, const Cavity& b) { return a.volume > b.volume; });
+                     [](const SurfaceReport::Cavity& a, const SurfaceReport::Cavity& b) {
+                         return a.volume > b.volume;
+                     });
     const std::vector<float> areas = vertexAreas(whole.mesh, progress);
     SurfaceReport& surface = whole.report.surface;
     surface.meanCurvature = statistics(whole.mesh.scalars[0].values, areas);

@@ -44,12 +44,12 @@ void append(const std::string& word, std::string& list)
     list += (list.empty() ? "" : " ") + word;
 }
 
-Lining liningOf(const BallSet& atoms, const PocketsReport::Pocket& pocket)
+Lining liningOf(const BallSet& atoms, const Report::Pockets::Pocket& pocket)
 {
     Lining out;
     std::set<std::int32_t> residues;
     double sum = 0.0, area = 0.0, charge = unknown;
-    for (const PocketsReport::Pocket::Lining& part : pocket.lining) {
+    for (const Report::Pockets::Pocket::Lining& part : pocket.lining) {
         append(std::to_string(atoms.balls[part.ball].atom), out.atoms);
         if (!atoms.names) continue;
         const std::int32_t residue = atoms.names->residueOf[part.ball];
@@ -75,10 +75,10 @@ Lining liningOf(const BallSet& atoms, const PocketsReport::Pocket& pocket)
 class PocketColumns
 {
 public:
-    void add(const BallSet& atoms, const PocketsReport::Pocket& pocket)
+    void add(const BallSet& atoms, const Report::Pockets::Pocket& pocket)
     {
         double mouthArea = 0.0, mouthRadius = pocket.mouths.empty() ? unknown : 0.0;
-        for (const PocketsReport::Pocket::Mouth& mouth : pocket.mouths) {
+        for (const Report::Pockets::Pocket::Mouth& mouth : pocket.mouths) {
             mouthArea += mouth.area;
             mouthRadius = std::max(mouthRadius, mouth.radius);
         }
@@ -128,7 +128,7 @@ private:
 
 } // namespace
 
-Table PocketsReport::table(const BallSet& atoms) const
+Table Report::Pockets::table(const BallSet& atoms) const
 {
     PocketColumns columns;
     for (const Pocket& pocket : list) columns.add(atoms, pocket);

@@ -128,8 +128,8 @@ void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& p
     if (options.color == ColorBy::Pocket && !result.mesh.normals.empty())
         if (const std::size_t closed = colorPockets(found, progress, result.mesh))
             result.report.warnings.push_back(closedText(closed, found.list.size(), options.kind));
-    result.report.pockets = PocketsReport{asked.probeIn, asked.probeOut, asked.cut,
-                                          asked.neck,    options.voxel,  std::move(found.list)};
+    result.report.pockets = Report::Pockets{asked.probeIn, asked.probeOut, asked.cut,
+                                            asked.neck,    options.voxel,  std::move(found.list)};
     const openvdb::GridPtrVec grids = {found.ids, found.depths, found.rooms};
     const bool alone = !options.grid; // for their callers: no file has grids then
     for (const auto& grid : grids)

@@ -111,7 +111,7 @@ WholeSurface colored(const BallSet& atoms, const SurfaceOptions& options, Progre
 void describeAtoms(const BallSet& atoms, Report& report)
 {
     report.atoms = atoms.whole();
-    if (atoms.beads > 0) report.coarse = CoarseReport{atoms.beads, atoms.beadAtoms};
+    if (atoms.beads > 0) report.coarse = Report::Coarse{atoms.beads, atoms.beadAtoms};
     for (const ResolutionGroup& group : atoms.resolutions) {
         report.resolutions.push_back(
             {group.rule.select, group.rule.resolution, group.balls, group.level});

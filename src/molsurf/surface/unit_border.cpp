@@ -455,11 +455,12 @@ private:
 
 } // namespace
 
-BorderClasses::BorderClasses(const Placement::Unit& unit, const std::vector<SharedVertex>& shared,
+BorderClasses::BorderClasses(const Placement::Unit& unit,
+                             const std::vector<MolecularSurface::SharedVertex>& shared,
                              std::size_t vertices)
     : order_(unit.inverse.size()), border_([&] {
           std::vector<std::uint32_t> all;
-          for (const SharedVertex& s : shared) all.push_back(s.vertex);
+          for (const MolecularSurface::SharedVertex& s : shared) all.push_back(s.vertex);
           std::sort(all.begin(), all.end());
           all.erase(std::unique(all.begin(), all.end()), all.end());
           return all;
@@ -468,7 +469,7 @@ BorderClasses::BorderClasses(const Placement::Unit& unit, const std::vector<Shar
 {
     const std::size_t n = border_.size();
     for (std::size_t i = 0; i < n; ++i) place_[border_[i]] = std::int32_t(i);
-    for (const SharedVertex& s : shared) {
+    for (const MolecularSurface::SharedVertex& s : shared) {
         const auto from = std::size_t(place_[s.vertex]), to = std::size_t(place_[s.other]);
         for (std::size_t k = 0; k < order_; ++k)
             sets_.join(std::uint32_t(k * n + from),

@@ -18,10 +18,11 @@ namespace molsurf
 
 /// A border that was fitted.
 struct BorderFit {
-    std::vector<SharedVertex> shared; ///< every vertex of the border, once for each neighbour
-    std::size_t open = 0;             ///< edges of the border that fit none of a neighbour's
-    double filled = 0.0;              ///< area of triangles in the holes that these left [Å^2]
-    double largest = 0.0;             ///< gap that was closed [Å]
+    std::vector<MolecularSurface::SharedVertex>
+        shared;           ///< every vertex of the border, once for each neighbour
+    std::size_t open = 0; ///< edges of the border that fit none of a neighbour's
+    double filled = 0.0;  ///< area of triangles in the holes that these left [Å^2]
+    double largest = 0.0; ///< gap that was closed [Å]
 };
 
 /// The vertices of a whole that vertices of its units share.
@@ -29,8 +30,8 @@ class BorderClasses
 {
 public:
     /// @param[in] vertices  of the unit's mesh
-    BorderClasses(const Placement::Unit& unit, const std::vector<SharedVertex>& shared,
-                  std::size_t vertices);
+    BorderClasses(const Placement::Unit& unit,
+                  const std::vector<MolecularSurface::SharedVertex>& shared, std::size_t vertices);
 
     /// Vertices of the unit that are shared, ascending.
     const std::vector<std::uint32_t>& border() const { return border_; }

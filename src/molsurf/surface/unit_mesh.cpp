@@ -20,7 +20,7 @@ namespace
 /// The vertex that each vertex of each unit is in the whole: that of unit k and vertex v at
 /// k * vertices + v.
 std::vector<std::uint32_t> vertexNumbers(const Placement::Unit& unit,
-                                         const std::vector<SharedVertex>& shared,
+                                         const std::vector<MolecularSurface::SharedVertex>& shared,
                                          std::size_t vertices, std::size_t& count)
 {
     const std::size_t order = unit.inverse.size();

@@ -81,7 +81,7 @@ MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& 
                  takeClosedForm(atoms, probeOf(options), progress, result.report.surface), 0.0,
                  progress, result);
     result.report.symmetry =
-        SymmetryReport{unit.pointGroup, unit.inverse.size(), unit.copies, unit.deviation, 0.0, 0};
+        Report::Symmetry{unit.pointGroup, unit.inverse.size(), unit.copies, unit.deviation, 0.0, 0};
     watch.stop("areas");
     return result;
 }
@@ -94,7 +94,7 @@ std::vector<PieceMeasure> wholePieces(const Placement::Unit& unit, const BorderF
     const std::size_t order = unit.inverse.size(), n = pieces.size();
     DisjointSets sets(order * n);
     std::vector<std::array<std::uint32_t, 3>> meetings;
-    for (const SharedVertex& s : fit.shared)
+    for (const MolecularSurface::SharedVertex& s : fit.shared)
         meetings.push_back({pieceOf[s.vertex], std::uint32_t(s.motion), pieceOf[s.other]});
     std::sort(meetings.begin(), meetings.end());
     meetings.erase(std::unique(meetings.begin(), meetings.end()), meetings.end());
@@ -233,8 +233,8 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     MolecularSurface result = run.finish();
     result.surface.reset();
     result.shared = fit.shared;
-    result.report.symmetry = SymmetryReport{unit.pointGroup, unit.inverse.size(), unit.copies,
-                                            unit.deviation,  fit.largest,         fit.open};
+    result.report.symmetry = Report::Symmetry{unit.pointGroup, unit.inverse.size(), unit.copies,
+                                              unit.deviation,  fit.largest,         fit.open};
     return result;
 }
 

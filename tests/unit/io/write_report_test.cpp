@@ -86,7 +86,7 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.surface.cuspLength = report.surface.meshArea = report.surface.meshVolume = 1.0;
     report.evolution->gaps = report.evolution->walls = EvolutionReport::Gaps();
     report.evolution->gaps->closedByField = 1;
-    report.coarse = CoarseReport{1, 2};
+    report.coarse = Report::Coarse{1, 2};
     report.resolutions.resize(1);
     report.groups = {{"A", 1, 1.0, 1.0, "#ff0000", 2.0}};
     report.interfaces.resize(1);
@@ -96,7 +96,7 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.pore->stations[0].isBottleneck = true;
     report.parts.resize(1);
     report.instances.resize(1);
-    report.symmetry = SymmetryReport();
+    report.symmetry = Report::Symmetry();
     report.tables = {{"atoms", {}}};
     report.surface.shape = SurfaceReport::Shape();
     Names written, listed;

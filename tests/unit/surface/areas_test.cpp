@@ -220,7 +220,7 @@ TEST(BallAreas, AddUpToTheAreaOfEveryKind)
         const MolecularSurface made = makeSurface(groupsOfTwo(all), options);
         ASSERT_EQ(made.ballAreas.size(), all.size());
         EXPECT_NEAR(sum(made.ballAreas), made.report.surface.area, 1e-9) << nameOf(kind);
-        for (const GroupReport& group : made.report.groups) {
+        for (const Report::Group& group : made.report.groups) {
             double own = 0.0;
             for (std::size_t i = 0; i < all.size(); ++i)
                 own += (all[i].center.x() > 0) == (group.name == "right") ? made.ballAreas[i] : 0.0;
@@ -281,9 +281,9 @@ TEST(BallAreas, OfAnInterface)
         options.kind = kind;
         const MolecularSurface made = makeSurface(groupsOfTwo(all), options);
         ASSERT_EQ(made.report.interfaces.size(), 1u);
-        const InterfaceReport& interface = made.report.interfaces[0];
+        const Report::Interface& interface = made.report.interfaces[0];
         double lost = 0.0;
-        for (const InterfaceReport::Buried& b : interface.buried) {
+        for (const Report::Interface::Buried& b : interface.buried) {
             EXPECT_EQ(b.ofFirst, all[b.ball].center.x() <= 0);
             lost += 0.5 * (b.alone - b.together);
         }

@@ -11,7 +11,6 @@
 #include "molsurf/surface.h"
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/unit_mesh.h"
-#include "molsurf/tables.h"
 #include "support/groups.h"
 
 #include <gtest/gtest.h>
@@ -356,11 +355,11 @@ TEST(SymmetricUnit, InterfacesCountTheWhole)
         const Report b = makeSurface(selectBalls(s, select), options).report;
         double found = 0.0, expected = 0.0;
         std::size_t count = 0;
-        for (const InterfaceReport& i : a.interfaces) {
+        for (const Report::Interface& i : a.interfaces) {
             found += double(i.count) * i.area;
             count += i.count;
         }
-        for (const InterfaceReport& i : b.interfaces) expected += i.area;
+        for (const Report::Interface& i : b.interfaces) expected += i.area;
         EXPECT_EQ(count, b.interfaces.size());
         EXPECT_GT(expected, 100.0);
         const bool exact = kind == SurfaceKind::SolventAccessible;
@@ -421,7 +420,7 @@ TEST(SymmetricUnit, BordersMeet)
     const BallSet unit = selectBalls(s, assembly(true, options));
     const MolecularSurface a = makePrototypes(unit, options);
     ASSERT_FALSE(a.shared.empty());
-    for (const SharedVertex& v : a.shared) {
+    for (const MolecularSurface::SharedVertex& v : a.shared) {
         const Instance& m = unit.placement.instances[std::size_t(v.motion)];
         const Operator op{m.rotation, m.translation, {}};
         const Vec3d there = applied(op, Vec3d(a.mesh.positions[v.other]));

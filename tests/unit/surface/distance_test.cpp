@@ -2,8 +2,8 @@
 // Distances of points from surfaces, against searches through all that the nearest point can lie
 // on.
 
-#include "molsurf/distance.h"
 #include "molsurf/error.h"
+#include "molsurf/surface.h"
 #include "support/molecules.h"
 
 #include <gtest/gtest.h>

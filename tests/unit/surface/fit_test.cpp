@@ -111,7 +111,7 @@ TEST(Fit, IsInTheReport)
     const std::string path = std::string(MOLSURF_TEST_DATA) + "/1a8o.cif.gz";
     const Report whole = makeSurface(readAtoms(path, select, options.probe), options).report;
     ASSERT_EQ(whole.interfaces.size(), 1u);
-    const InterfaceReport::Fit& fit = whole.interfaces[0].fit;
+    const Report::Interface::Fit& fit = whole.interfaces[0].fit;
     EXPECT_GT(fit.shape, 0.5);
     EXPECT_LT(fit.shape, 0.8);
     select.bySymmetry = true;

@@ -175,7 +175,7 @@ TEST(Interfaces, OfGaussiansAreFoundAsFarAsTheyReach)
         options.interfaces = false;
         const double buried = 0.5 * (alone - report.surface.area);
         ASSERT_EQ(report.interfaces.size(), buried > 0.005 ? 1u : 0u) << apart;
-        for (const InterfaceReport& found : report.interfaces)
+        for (const Report::Interface& found : report.interfaces)
             EXPECT_NEAR(found.area, buried, 0.01);
         EXPECT_TRUE(apart < 5.0f || apart > 6.0f || buried < -12.0) << buried;
     }
@@ -199,7 +199,7 @@ TEST(Parts, SplitGivesEveryGroupItsOwnClosedSurface)
     const Report& report = result.report;
     ASSERT_EQ(report.parts.size(), 2u);
     const double area = 4.0 * M_PI * 1.7 * 1.7;
-    for (const PartReport& part : report.parts) {
+    for (const Report::Part& part : report.parts) {
         EXPECT_EQ(part.atoms, 1u);
         EXPECT_NEAR(part.surface.area, area, 1e-6 * area);
         EXPECT_TRUE(part.surface.closed && part.surface.manifold);

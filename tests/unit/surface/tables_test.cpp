@@ -2,7 +2,7 @@
 // Tables of areas, as callers of the face have them.
 
 #include "molsurf/error.h"
-#include "molsurf/tables.h"
+#include "molsurf/surface.h"
 
 #include <gtest/gtest.h>
 
@@ -113,10 +113,10 @@ TEST(Tables, OfAPocketWeighItsWallAndNameItsWidestMouth)
         while (atoms.names->residues[std::size_t(atoms.names->residueOf[i])].number != number) ++i;
         return i;
     };
-    PocketsReport::Pocket pocket;
+    Report::Pockets::Pocket pocket;
     pocket.lining = {{ballOf(1), 30.0}, {ballOf(3), 10.0}}; // of THR and CYS
     pocket.mouths = {{9.0, 2.5}, {4.0, 1.5}};
-    PocketsReport report;
+    Report::Pockets report;
     report.list = {pocket};
     const Table table = report.table(atoms);
     EXPECT_NEAR(column<double>(table, "hydrophobicity")[0], (30.0 * -0.7 + 10.0 * 2.5) / 40.0,
