@@ -466,16 +466,24 @@ nb::tuple comparisonOf(const Mesh& a, const Mesh& b, const How& how)
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
+/// Surfaces beside the first one in a picture or page, with their names.
+using Panels = std::vector<std::pair<std::string, const MadeSurface*>>;
+
 void save(const MadeSurface& surface, const std::string& path, bool replace,
-          const std::string& scene, const Words& settings)
+          const std::string& scene, const Words& settings, const std::string& name,
+          const Panels& panels, const std::vector<std::pair<std::string, const Molecule*>>& show)
 {
     nb::gil_scoped_release free;
     const std::string end = std::filesystem::path(path).extension().string();
     if (end == ".vdb") return writeVdb(surface.result, path, replace, scene);
     if (end == ".json") return writeReport(surface.result.report, path, replace);
-    if (end == ".png" || end == ".html")
-        return writePicture(*surface.atoms, surface.result, surface.options, path, settings,
-                            replace);
+    if (end == ".png" || end == ".html") {
+        std::vector<ShownSurface> shown = {{*surface.atoms, surface.result, surface.options, name}};
+        for (const auto& [title, other] : panels)
+            shown.push_back({*other->atoms, other->result, other->options, title});
+        for (const auto& [style, some] : show) shown[0].show.emplace_back(style, some->atoms.get());
+        return writePicture(shown, path, settings, replace);
+    }
     std::string all;
     bool known = false;
     for (const std::string& one : meshEndings()) {

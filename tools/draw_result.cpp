@@ -12,9 +12,6 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/atom_model.h"
-#include "molsurf/picture/draw_legend.h"
-#include "molsurf/picture/panels.h"
-#include "molsurf/picture/view.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/spline/curvature.h"
@@ -33,35 +30,6 @@ openvdb::Vec3d originOf(const Call& call)
     return call.center ? call.scene.center : openvdb::Vec3d(0.0);
 }
 
-std::vector<Ball> placedBalls(const Call& call, const BallSet& atoms)
-{
-    std::vector<Ball> balls = atoms.balls;
-    for (Ball& ball : balls) ball.center -= originOf(call);
-    return balls;
-}
-
-std::shared_ptr<const ColorOwners> bordersOf(const Call& call, const BallSet& atoms,
-                                             const Mesh& mesh, const Progress& progress)
-{
-    return molsurf::bordersOf(call.options.color, atoms,
-                              asMeshed(placedBalls(call, atoms), call.options), mesh, progress);
-}
-
-std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                                      bool colored, const Progress& progress)
-{
-    const Color plain = mesh.colors.empty() ? call.picture.plain : Color{255, 255, 255};
-    const std::vector<Color> colors =
-        colored ? instanceColors(atoms, progress) : std::vector<Color>();
-    std::vector<MeshInstance> out;
-    for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
-        const Instance& copy = atoms.placement.instances[i];
-        out.push_back({copy.part, "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
-                       copy.rotation, copy.translation, colors.empty() ? plain : colors[i]});
-    }
-    return out;
-}
-
 void showBodies(const Mesh& bodies, DrawOptions& picture)
 {
     if (bodies.triangles.empty()) return;
@@ -69,26 +37,6 @@ void showBodies(const Mesh& bodies, DrawOptions& picture)
         picture.model ? std::make_shared<AtomModel>(*picture.model) : std::make_shared<AtomModel>();
     addBodies(bodies, *model);
     picture.model = model;
-}
-
-DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
-                      const Progress& progress)
-{
-    DrawOptions options = call.picture;
-    options.instances = instancesOf(call, atoms, mesh, coloredCopies, progress);
-    if (call.options.color == ColorBy::Pocket) options.glass = neutralColor;
-    setUpright(atoms, options);
-    if (atoms.placement.isWhole()) {
-        for (const Ball& ball : atoms.balls) options.about.emplace_back(ball.center);
-        return options;
-    }
-    constexpr std::size_t enough = 300; // balls of a prototype
-    for (const MeshInstance& copy : options.instances) {
-        const auto [begin, end] = atoms.prototype(copy.part);
-        for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
-            options.about.push_back(copy.placed(openvdb::Vec3d(atoms.balls[i].center)));
-    }
-    return options;
 }
 
 std::optional<std::array<double, 2>> rangeOf(const Call& call, const BallSet& atoms,
@@ -226,126 +174,41 @@ int endOf(const std::vector<PanelSurface>& panels)
     return rest ? 0 : notConvergedStatus;
 }
 
-namespace
+DrawnSurface drawnSurface(const Call& call, const BallSet& atoms, const Mesh& mesh,
+                          const ShownMeshes& shown, double turn, bool quick)
 {
-
-/// One panel, ready to be drawn.
-struct Shot {
-    std::string name;
-    const Mesh* mesh;
-    DrawOptions options;
-    std::vector<Legend> legends;
-};
-
-Shot shotOf(const Drawn& d, double turn, bool quick)
-{
-    const Call& call = d.call;
-    Shot shot{"", &d.mesh, pictureOf(call, d.atoms, d.mesh, call.colorsCopies(), d.progress), {}};
-    DrawOptions& options = shot.options;
-    options.turn += turn;
-    options.quick = quick;
-    options.borders = d.borders;
-    if (options.clip)
-        options.inside = insideColors(call.options, d.atoms, originOf(call), d.borders);
-    const auto legend =
-        d.legend ? d.legend : legendOf(call.options.color, d.atoms, d.mesh, d.progress);
-    shot.legends = molsurf::legendsOf(legend, options.model.get());
-    return shot;
+    DrawnSurface drawn{atoms, mesh, call.options, call.picture};
+    drawn.origin = originOf(call);
+    drawn.colorsCopies = call.colorsCopies();
+    drawn.borders = shown.borders;
+    drawn.legend = shown.legend;
+    drawn.look.turn += turn;
+    drawn.look.quick = quick;
+    return drawn;
 }
 
-/// All panels, the first one first.
-std::vector<Shot> shotsOf(const Drawn& d, double turn, bool quick)
+std::vector<DrawnSurface> drawnPanels(const Call& call, const DrawnSurface& first)
 {
-    std::vector<Shot> shots = {shotOf(d, turn, quick)};
-    if (d.call.panels.empty() || !d.call.panelSurfaces) return shots;
-    auto surface = d.call.panelSurfaces->begin();
-    shots[0].name = firstName(d.call);
-    for (const Panel& panel : d.call.panels) {
+    std::vector<DrawnSurface> all = {first};
+    if (call.panels.empty() || !call.panelSurfaces) return all;
+    all[0].name = firstName(call);
+    auto made = call.panelSurfaces->begin();
+    for (const Panel& panel : call.panels) {
         if (!panel.hasSurface()) {
-            shots.push_back(shots[0]);
-            lookFrom(panel.toEye, shots.back().options);
+            all.push_back(all[0]);
+            all.back().ownEye = true;
+            lookFrom(panel.toEye, all.back().look);
             continue;
         }
-        Call call = d.call;
-        call.picture = surface->picture;
-        shots.push_back(
-            shotOf({call, surface->atoms, surface->mesh, surface->shown.borders, {}, d.progress},
-                   turn, quick));
-        shots.back().name = surface->name;
-        ++surface;
-    }
-    return shots;
-}
-
-/// One direction for all panels but those that have their own, and one scale. Each panel shows the
-/// middle of its structure, unless the call says what it shows.
-void shareCamera(const Call& call, std::vector<Shot>& shots)
-{
-    DrawOptions level = shots[0].options;
-    level.turn = 0.0;
-    const auto axes = viewAxes(*shots[0].mesh, level);
-    std::vector<PictureFrame> frames;
-    PictureFrame largest{openvdb::Vec3d(0.0), 0.0, 0.0};
-    for (std::size_t n = 0; n < shots.size(); ++n) {
-        DrawOptions& options = shots[n].options;
-        if (n == 0 || call.panels[n - 1].hasSurface()) {
-            options.upright = openvdb::Vec3d(0.0);
-            options.up = axes[1];
-            options.toEye = axes[2];
-        }
-        options.turnable = options.turnable || options.turn != 0.0;
-        const View view = chooseView(*shots[n].mesh, options);
-        frames.push_back({view.center, view.width * view.pixel, view.height * view.pixel});
-        largest.width = std::max(largest.width, frames.back().width);
-        largest.height = std::max(largest.height, frames.back().height);
-    }
-    for (std::size_t n = 0; n < shots.size(); ++n)
-        shots[n].options.frame = PictureFrame{frames[n].center, largest.width, largest.height};
-}
-
-std::vector<Legend> joined(const std::vector<Shot>& shots)
-{
-    std::vector<Legend> all;
-    for (const Shot& shot : shots) {
-        for (const Legend& legend : shot.legends) {
-            const auto known = std::find_if(all.begin(), all.end(), [&](const Legend& other) {
-                return other.title == legend.title;
-            });
-            if (known == all.end())
-                all.push_back(legend);
-            else
-                for (const LegendEntry& entry : legend.entries) addEntry(entry, known->entries);
-        }
+        DrawnSurface drawn = drawnSurface(call, made->atoms, made->mesh, made->shown);
+        drawn.look = made->picture;
+        drawn.look.turn = first.look.turn;
+        drawn.look.quick = first.look.quick;
+        drawn.name = made->name;
+        all.push_back(std::move(drawn));
+        ++made;
     }
     return all;
-}
-
-} // namespace
-
-std::vector<Legend> legendsOf(const Drawn& drawn)
-{
-    return joined(shotsOf(drawn, 0.0, true));
-}
-
-Picture drawResult(const Drawn& drawn, double turn, bool quick)
-{
-    const Call& call = drawn.call;
-    std::vector<Shot> shots = shotsOf(drawn, turn, quick);
-    const std::vector<Legend> legends = call.drawsLegend() ? joined(shots) : std::vector<Legend>();
-    if (shots.size() == 1)
-        return drawExplained(*shots[0].mesh, std::move(shots[0].options), legends, call.scaleBar,
-                             drawn.progress);
-    shareCamera(call, shots);
-    const int whole = shots[0].options.width, width = widthBeside(legends, whole);
-    std::vector<PanelPicture> panels;
-    for (Shot& shot : shots) {
-        shot.options.width = panelWidth(shots.size(), width);
-        shot.options.whole = whole;
-        panels.push_back({drawMesh(*shot.mesh, shot.options, drawn.progress),
-                          call.drawsLegend() ? shot.name : ""});
-    }
-    return explained(joinPanels(panels, width, whole, call.picture.background), legends,
-                     call.scaleBar, whole, call.picture.background);
 }
 
 } // namespace molsurf::tool

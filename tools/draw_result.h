@@ -8,12 +8,10 @@
 #include "terminal.h"
 #include "write_result.h"
 
-#include "molsurf/color/crisp_borders.h"
-#include "molsurf/color/legend.h"
 #include "molsurf/surface.h"
+#include "molsurf/surface/drawn_surface.h"
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,25 +39,8 @@ std::string firstName(const Call& call);
 /// The point that is 0 in meshes.
 openvdb::Vec3d originOf(const Call& call);
 
-/// The balls where they lie to the mesh.
-std::vector<Ball> placedBalls(const Call& call, const BallSet& atoms);
-
-/// The borders between the colours of a mesh; null: they have none.
-std::shared_ptr<const ColorOwners> bordersOf(const Call& call, const BallSet& atoms,
-                                             const Mesh& mesh, const Progress& progress);
-
-/// The copies of an assembly as nodes.
-/// @param[in] colored  copies that are near have different colours
-std::vector<MeshInstance> instancesOf(const Call& call, const BallSet& atoms, const Mesh& mesh,
-                                      bool colored, const Progress& progress);
-
 /// Shows bodies among the atoms of a picture.
 void showBodies(const Mesh& bodies, DrawOptions& picture);
-
-/// The options of a picture of a surface, whose automatic view comes from the atoms: it is the same
-/// for every voxel.
-DrawOptions pictureOf(const Call& call, const BallSet& atoms, const Mesh& mesh, bool coloredCopies,
-                      const Progress& progress);
 
 /// The values at the ends of the colours; none: they are no values.
 std::optional<std::array<double, 2>> rangeOf(const Call& call, const BallSet& atoms,
@@ -75,22 +56,13 @@ void makePanels(const Call& call, const BallSet& first, const Mesh& mesh, Termin
 /// The exit status for panels; says which of them are not at rest.
 int endOf(const std::vector<PanelSurface>& panels);
 
-/// Source of a picture.
-struct Drawn {
-    const Call& call;
-    const BallSet& atoms;
-    const Mesh& mesh;
-    const std::shared_ptr<const ColorOwners>& borders;
-    const std::optional<Legend>& legend; ///< of colours that no option names; none: by the options
-    const Progress& progress;
-};
-
-/// The legends of a picture and its panels, each name once.
-std::vector<Legend> legendsOf(const Drawn& drawn);
-
-/// Draws it, with its panels.
+/// The surface of a call as pictures show it.
 /// @param[in] turn   beside that of the call [degree]
 /// @param[in] quick  as DrawOptions::quick
-Picture drawResult(const Drawn& drawn, double turn, bool quick);
+DrawnSurface drawnSurface(const Call& call, const BallSet& atoms, const Mesh& mesh,
+                          const ShownMeshes& shown, double turn = 0.0, bool quick = false);
+
+/// The same with the panels of the call behind it.
+std::vector<DrawnSurface> drawnPanels(const Call& call, const DrawnSurface& first);
 
 } // namespace molsurf::tool

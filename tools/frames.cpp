@@ -219,8 +219,9 @@ public:
         if (share_.isAsked() && call_.options.grid && !hasField(call_.options.fields, "pocket_id"))
             call_.options.fields.push_back("pocket_id");
         for (const ShowRule& rule : call_.shows) shown_.push_back(pictured(rule.select));
-        for (const NoteRule& rule : call_.notes)
-            for (const std::string& select : rule.selects) noted_.push_back(pictured(select));
+        for (const NoteText& note : call_.notes)
+            for (const std::string& place : note.places)
+                if (!directionOf(place)) noted_.push_back(pictured(place));
         if (!call_.viewed.empty())
             lookAt(call_, pictured(call_.viewed)->balls(0), source_.balls(0), call_.picture);
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);

@@ -8,6 +8,7 @@
 
 #include "molsurf/atoms.h"
 #include "molsurf/progress.h"
+#include "molsurf/surface/drawn_surface.h"
 
 #include <functional>
 #include <string>
@@ -20,19 +21,10 @@ namespace molsurf::tool
 /// the surface's.
 SelectOptions picturedAtoms(const Call& call, const std::string& select);
 
-/// Puts atoms into the picture. Chains have the colours of the surface's.
-/// @param[in] atoms    of each rule
-/// @param[in] bonds    of their file; null: it gives none
-/// @param[in] surface  the balls that the surface is of
-/// @throws Error(ErrorKind::Input) if there is nothing to show, or more than the memory holds
-void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
-               const std::shared_ptr<const FileBonds>& bonds, const BallSet& surface,
-               const Progress& progress, DrawOptions& picture);
-
-/// Adds labels and rulers.
-/// @param[in] atomsOf  gives the atoms of a selection; it is asked in the order of the rules
-/// @throws Error(ErrorKind::Input) if a ruler has no length
-void addNotes(const std::vector<NoteRule>& rules,
+/// Adds labels and rulers of selections and places.
+/// @param[in] atomsOf  gives the atoms of a selection; it is asked in the order of the notes
+/// @throws Error(ErrorKind::Input) if a ruler has no length, or a label of a place no text
+void addNotes(const std::vector<NoteText>& notes,
               const std::function<BallSet(const std::string& select)>& atomsOf,
               DrawOptions& picture);
 

@@ -64,8 +64,8 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
         if (there) rules.push_back(rule);
     }
     showAtoms(rules, std::move(shown), structure.bonds, balls, terminal, *picture);
-    for (const NoteRule& rule : call.notes)
-        isThere(partly, [&] { addNotes({rule}, chosen, *picture); });
+    for (const NoteText& note : call.notes)
+        isThere(partly, [&] { addNotes({note}, chosen, *picture); });
     if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);
     return {std::move(balls), std::move(description)};
 }

@@ -162,7 +162,9 @@ ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh
     };
     const bool cut = shows([&](const Output& output) { return isCrisp(call, output); });
     if (cut || shows([](const Output& output) { return output.holds(Pixels); }))
-        shown.borders = bordersOf(call, atoms, mesh, progress);
+        shown.borders =
+            bordersOf(call.options.color, atoms,
+                      asMeshed(placedBalls(atoms, originOf(call)), call.options), mesh, progress);
     if (!cut || !shown.borders) return shown;
     const KindRow& kind = rowOf(call.options.kind);
     shown.crisp = withCrispBorders(
@@ -188,18 +190,24 @@ namespace
 
 std::vector<MeshInstance> instancesOf(const Writing& w)
 {
-    return instancesOf(w.call, w.atoms, w.mesh, w.call.colorsCopies(), w.progress);
+    return instancesOf(w.atoms, w.mesh, w.call.colorsCopies(), w.call.picture.plain, w.progress);
 }
 
-Drawn drawnOf(const Writing& w)
+DrawnSurface drawnOf(const Writing& w, double turn = 0.0, bool quick = false)
 {
-    return {w.call, w.atoms, w.mesh, w.shown.borders, w.shown.legend, w.progress};
+    return drawnSurface(w.call, w.atoms, w.mesh, w.shown, turn, quick);
+}
+
+/// A picture with its panels.
+Picture draw(const Writing& w, double turn, bool quick)
+{
+    return drawSurfaces(drawnPanels(w.call, drawnOf(w, turn, quick)), w.call, w.progress);
 }
 
 /// Says that pictures show nothing of the surface, since --clip cuts all of it away.
 void warnOfClip(const Writing& w)
 {
-    const DrawOptions options = pictureOf(w.call, w.atoms, w.mesh, false, w.progress);
+    const DrawOptions options = pictureOf(drawnOf(w), w.progress);
     if (!options.clip || w.output.turn != 0.0 || w.call.quiet) return;
     const double low = chooseView(w.mesh, options).low;
     if (*options.clip > low) return;
@@ -210,27 +218,28 @@ void warnOfClip(const Writing& w)
 void writePicture(const Writing& w, OutputFile& file)
 {
     warnOfClip(w);
-    writePng(drawResult(drawnOf(w), w.output.turn, false), file);
+    writePng(draw(w, w.output.turn, false), file);
 }
 
 void writeFilm(const Writing& w, OutputFile& file)
 {
     warnOfClip(w);
-    if (w.output.film) return w.output.film->add(drawResult(drawnOf(w), 0.0, true));
+    if (w.output.film) return w.output.film->add(draw(w, 0.0, true));
     Film film(file, w.call.fps > 0.0 ? w.call.fps : filmRate);
     const int count = w.call.turntable;
-    for (int n = 0; n < count; ++n) film.add(drawResult(drawnOf(w), 360.0 * n / count, true));
+    for (int n = 0; n < count; ++n) film.add(draw(w, 360.0 * n / count, true));
     film.finish();
 }
 
 void writeLegend(const Writing& w, OutputFile& file)
 {
-    writeLegendSvg(legendsOf(drawnOf(w)), w.call.picture.background, file);
+    writeLegendSvg(legendsOf(drawnPanels(w.call, drawnOf(w)), w.progress),
+                   w.call.picture.background, file);
 }
 
 void writeCamera(const Writing& w, OutputFile& file)
 {
-    writeView(w.mesh, pictureOf(w.call, w.atoms, w.mesh, false, w.progress), file);
+    writeView(w.mesh, pictureOf(drawnOf(w), w.progress), file);
 }
 
 void writeGrids(const Writing& w, OutputFile& file)
@@ -274,39 +283,23 @@ void writeGlb(const Writing& w, OutputFile& file)
              file);
 }
 
-/// A surface with what a page shows of it.
-HtmlPage pageOf(const Drawn& d, const ShownMeshes& shown)
-{
-    const DrawOptions view = pictureOf(d.call, d.atoms, d.mesh, true, d.progress);
-    HtmlPage page;
-    page.title = displayName(inputStem(d.call.input));
-    page.about = shown.about;
-    page.legends = d.legend ? std::vector{*d.legend}
-                            : offeredLegends(d.call.options.color, d.atoms, d.mesh, d.progress);
-    page.plain = d.call.picture.plain;
-    page.axes = viewAxes(d.mesh, view);
-    page.instances = view.instances;
-    page.copiesFirst = d.call.colorsCopies();
-    if (d.atoms.names)
-        nameAtoms(*d.atoms.names, placedBalls(d.call, d.atoms), d.mesh, d.progress, page);
-    colorCut(d.atoms, placedBalls(d.call, d.atoms), d.progress, page);
-    return page;
-}
-
 void writePage(const Writing& w, OutputFile& file)
 {
-    std::vector<HtmlLayer> layers = {{w.mesh, pageOf(drawnOf(w), w.shown)}};
-    layers[0].page.name = firstName(w.call);
+    const Call& call = w.call;
+    const std::string title = displayName(inputStem(call.input));
+    std::vector<HtmlLayer> layers = {
+        {w.mesh, pageOf(drawnOf(w), title, w.shown.about, w.progress)}};
+    layers[0].page.name = firstName(call);
     layers[0].page.coarser = w.coarser;
-    layers[0].page.opacity = w.call.picture.opacity;
-    if (w.call.showsPockets) layers[0].page.bodies = w.shown.bodies.get();
+    layers[0].page.opacity = call.picture.opacity;
+    if (call.showsPockets) layers[0].page.bodies = w.shown.bodies.get();
     if (w.shown.about.empty())
-        layers[0].page.about = aboutPage(w.result.report.surface.kind, w.call.options.voxel);
+        layers[0].page.about = aboutPage(w.result.report.surface.kind, call.options.voxel);
     const std::vector<PanelSurface> none;
-    for (const PanelSurface& panel : w.call.panelSurfaces ? *w.call.panelSurfaces : none) {
+    for (const PanelSurface& panel : call.panelSurfaces ? *call.panelSurfaces : none) {
         const Mesh& mesh = panel.shown.crisp ? *panel.shown.crisp : panel.mesh;
-        HtmlPage page =
-            pageOf({w.call, panel.atoms, mesh, panel.shown.borders, {}, w.progress}, panel.shown);
+        HtmlPage page = pageOf(drawnSurface(call, panel.atoms, mesh, panel.shown), title,
+                               panel.shown.about, w.progress);
         page.name = panel.name;
         page.inPlace = panel.inPlace;
         if (panel.inPlace) page.bodies = layers[0].page.bodies;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """The programs that the wheel brings along."""
 
+import re
 import shutil
 import subprocess
 import sysconfig
@@ -53,6 +54,46 @@ def test_pictures_are_those_of_the_command(tmp_path):
                             "--force", *words, "-o", tmp_path / "b.png"], check=True)
             assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes(), name
             assert (tmp_path / "a.png").read_bytes() != (tmp_path / "plain.png").read_bytes(), name
+
+
+def test_panels_and_notes_are_those_of_the_command(tmp_path):
+    molecule = ms.read(DATA / "1crn.pdb", voxel=1, color="chain")
+    made, ses = molecule.surface(), molecule.surface(kind="ses")
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--voxel", "1", "--color", "chain", "-q", "--panel", "ses",
+                    "--label", "9,10,11=here", "--ruler", "9,10,11..2,3,4.5", "--show", "A/5-9=sticks", "--size", "600",
+                    "-o", tmp_path / "b.png"], check=True)
+    made.picture(tmp_path / "a.png", 600, label=[((9, 10, 11), "here")], ruler=[((9, 10, 11), (2, 3, 4.5))], panels=[ses],
+                 show={"sticks": ms.read(DATA / "1crn.pdb", select="A/5-9")})
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+    made.picture(tmp_path / "c.png", 600, panels={"": "variational", "ses": ses})
+    assert (tmp_path / "c.png").read_bytes() != (tmp_path / "a.png").read_bytes()
+
+
+def test_pages_have_layers(tmp_path):
+    molecule = ms.read(DATA / "1crn.pdb", voxel=1)
+    made, ses = molecule.surface(), molecule.surface(kind="ses")
+    made.save(tmp_path / "a.html", panels={"": "smooth <one>", "SES": ses})
+    page = (tmp_path / "a.html").read_text()
+    assert len(page) < len(made.view(panels={"": "smooth <one>", "SES": ses}).html) < len(page) + 20  # but for the title
+    layers = re.findall(r'"name":"([^"]*)"', page)
+    assert "SES" in layers and any(name.startswith("smooth") for name in layers)
+    assert "SES" not in made.view().html
+
+
+def test_wrong_panels_and_notes(tmp_path):
+    made = ms.read(DATA / "1crn.pdb", voxel=1).surface()
+    for error, said, given in ((TypeError, "panels: expected surfaces, got str", {"panels": ["ses"]}),
+                               (ValueError, r"label: expected a place \(x, y, z\)", {"label": [((1, 2), "here")]}),
+                               (ValueError, r"ruler: expected a place \(x, y, z\)", {"ruler": [((1, 2, 3), (1, 2, float("nan")))]}),
+                               (ms.OptionError, "`ruler`: expected X,Y,Z..X,Y,Z", {"ruler": [((1, 2, 3), (1, 2, 3))]}),
+                               (TypeError, "show: expected molecules, got Surface", {"show": {"sticks": made}}),
+                               (ms.OptionError, "`show`: expected sticks", {"show": {"stick": ms.read(DATA / "1crn.pdb")}}),
+                               (ms.OptionError, "`label`: expected X,Y,Z", {"label": [((1, 2, 3), "")]})):
+        with pytest.raises(error, match=said):
+            made.picture(tmp_path / "a.png", 80, **given)
+    with pytest.raises(ValueError, match="panels: expected a path that ends in .png or .html"):
+        made.save(tmp_path / "a.ply", panels=[made])
+    assert not list(tmp_path.iterdir())
 
 
 def test_wrong_options_of_pictures(tmp_path):

@@ -14,7 +14,7 @@ from vdb_molsurf import _options
 
 # Options of `build` that set no member of the library's options: files, frames, pictures, the run.
 COMMAND_LINE = {"output", "format", "force", "weld", "frames", "first-frame", "fps", "fog-density", "trajectory", "update-selections", "lod", "groups", "crisp", "walls", "areas",
-                "contacts", "for", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale", "min-wall", "size", "turntable", "show", "label", "ruler", "panel", "memory", "max-hours",
+                "contacts", "for", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale", "min-wall", "size", "turntable", "memory", "max-hours",
                 "dry-run", "require", "skip-existing", "threads", "quiet", "verbose", "no-progress", "config", "help", "help-all", "version", "list-radii"}
 
 
@@ -28,7 +28,7 @@ def options_of_build():
 def of_pictures():
     """Options that Surface.picture() has."""
     parameters = inspect.signature(ms.Surface.picture).parameters
-    return {name.replace("_", "-") for name in parameters if name not in ("self", "path", "width", "replace")}
+    return {name.replace("_", "-").replace("panels", "panel") for name in parameters if name not in ("self", "path", "width", "replace")}
 
 
 def test_command_line_and_keywords_have_the_same_names_and_defaults():

@@ -5,6 +5,7 @@ import html
 import json
 import os
 import tempfile
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -117,6 +118,36 @@ def _word(value):
     if np.ndim(value) > 0:
         return ",".join(repr(float(x)) for x in value)
     return str(value)
+
+
+def _place(keyword, place):
+    """A place as it is typed."""
+    numbers = np.asarray(place, dtype=float)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise ValueError(f"{keyword}: expected a place (x, y, z), got {place!r}")
+    return _word(numbers)
+
+
+def _shown(show):
+    """Words of styles, and the cores of molecules."""
+    for one in show.values():
+        if not isinstance(getattr(one, "_core", None), _core.Molecule):
+            raise TypeError(f"show: expected molecules, got {type(one).__name__}")
+    return [(str(style), one._core) for style, one in show.items()]
+
+
+def _named(surface, panels):
+    """The name of a surface, and the names and cores of its panels."""
+    if panels is None:
+        return "", []
+    names = dict(panels) if isinstance(panels, Mapping) else None
+    others = list(panels) if names is None else [one for name, one in names.items() if name != ""]
+    for one in others:
+        if not isinstance(one, Surface):
+            raise TypeError(f"panels: expected surfaces, got {type(one).__name__}")
+    titles = [one.kind for one in others] if names is None else [str(name) for name in names if name != ""]
+    own = surface.kind if names is None else str(names.get("", surface.kind))
+    return own, [(title, one._core) for title, one in zip(titles, others)]
 
 
 class Surface:
@@ -306,14 +337,20 @@ class Surface:
         """The voxels of the level set, about three on either side of the surface, and their signed distances."""
         return Voxels(*self._core.voxels())
 
-    def save(self, path, *, replace=True):
-        """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json, .png, or .html, a page."""
-        self._save(path, replace)
+    def save(self, path, *, replace=True, panels=None):
+        """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json, .png, or .html, a page.
 
-    def _save(self, path, replace, scene="", settings=()):
+        panels: further surfaces of a .png or .html, as of picture().
+        """
+        if panels is not None and not os.fspath(path).endswith((".png", ".html")):
+            raise ValueError("panels: expected a path that ends in .png or .html")
+        self._save(path, replace, panels=panels)
+
+    def _save(self, path, replace, scene="", settings=(), panels=None, show=()):
         """Writes a file; messages name the keywords of Python."""
+        name, others = _named(self, panels)
         try:
-            self._core.save(os.fspath(path), bool(replace), scene, list(settings))
+            self._core.save(os.fspath(path), bool(replace), scene, list(settings), name, others, list(show))
         except _core.OptionError as error:
             raise type(error)(str(error).replace("`size`", "width")) from None
         except _core.OutputError as error:
@@ -329,9 +366,9 @@ class Surface:
             raise ValueError("to_vdb: expected a name that ends in .vdb")
         self._save(path, replace, scene="" if scene is None else str(scene))
 
-    def view(self, height=480):
+    def view(self, height=480, panels=None):
         """The page of save("name.html") as what a notebook shows: a surface to turn, with its colours and atoms."""
-        return Page(self, int(height))
+        return Page(self, int(height), panels)
 
     def _repr_html_(self):
         rows = [("kind", self.kind), ("area", f"{self.area:.2f} Å²"), ("volume", f"{self.volume:.2f} Å³"),
@@ -339,11 +376,17 @@ class Surface:
         return "<table>" + "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows) + "</table>"
 
     def picture(self, path, width=1200, *, replace=True, view=None, up=None, turn=None, background=None, plain_color=None,
-                style=None, opacity=None, all_walls=False, clip=None, depth_cue=False, legend=None, scale_bar=False, dpi=None):
+                style=None, opacity=None, all_walls=False, clip=None, depth_cue=False, legend=None, scale_bar=False, dpi=None,
+                label=(), ruler=(), show=None, panels=None):
         """Draws the surface into a .png of so many pixels.
 
         The keywords are the command line's options of pictures. `view` and `up` are directions (x, y, z), toward the
         eye and upward; `view` may be the path of a .view, too. `turn` is in degrees, `clip` in Å. None: the default.
+
+        label: texts at places, as [((x, y, z), "active site")]; ruler: lines between places, as [((x, y, z), (x, y, z))]; in Å.
+        show: atoms beside the surface, as {"sticks": molecule}, with the words of the command line; bonds are those of dictionaries and distances.
+        panels: further surfaces in the same scale: a list, or a dict by their names, in which "" may have that of this one,
+        as {"": "smooth", "SES": ses}.
         """
         path = os.fspath(path)
         if not path.endswith(".png"):
@@ -352,17 +395,19 @@ class Surface:
                  "opacity": opacity, "all-walls": all_walls, "clip": clip, "depth-cue": depth_cue, "legend": legend,
                  "scale-bar": scale_bar, "dpi": dpi}
         settings = [(name, _word(value)) for name, value in given.items() if value is not None and value is not False]
-        self._save(path, replace, settings=settings)
+        settings += [("label", f"{_place('label', place)}={text}") for place, text in label]
+        settings += [("ruler", f"{_place('ruler', start)}..{_place('ruler', end)}") for start, end in ruler]
+        self._save(path, replace, settings=settings, panels=panels, show=_shown(show or {}))
 
 
 class Page:
     """A surface that a notebook shows and that can be turned there: what Surface.view() makes."""
 
-    def __init__(self, surface, height):
+    def __init__(self, surface, height, panels=None):
         self._height = height
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "surface.html")
-            surface.save(path)
+            surface.save(path, panels=panels)
             with open(path, encoding="utf-8") as file:
                 self.html = file.read()
 

@@ -2,7 +2,6 @@
 #include "molsurf/files.h"
 
 #include "molsurf/color/crisp_borders.h"
-#include "molsurf/color/legend.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
@@ -13,14 +12,11 @@
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/mesh/check_arrays.h"
-#include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/draw_mesh.h"
-#include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
-#include "molsurf/selection/subset.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/text_fields.h"
-#include "molsurf/surface/picture_settings.h"
+#include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <filesystem>
@@ -43,12 +39,45 @@ DrawOptions drawn(int width)
 }
 
 /// Balls as motions repeat them, in the colours of those that they are made of.
-BallSet repeated(const BallSet& atoms, ColorBy color, const std::vector<std::size_t>& sources)
+BallSet repeated(const BallSet& atoms, ColorBy color, const WholeBalls& whole)
 {
     BallSet colored = atoms;
     if (color != ColorBy::Nothing && colored.colors.empty())
         colored.colors = ballColors(atoms, color, Progress());
-    return subset(colored, sources);
+    return subset(colored, whole.sources);
+}
+
+/// Puts atoms into a picture.
+void showAtoms(const std::vector<std::pair<std::string, const BallSet*>>& show,
+               const BallSet& surface, const Progress& progress, DrawOptions& picture)
+{
+    std::vector<ShowRule> rules;
+    std::vector<BallSet> atoms;
+    for (const auto& [word, some] : show) {
+        rules.push_back(parseShow(word));
+        if (!some->names || !some->labels || !rules.back().select.empty())
+            throw Error(ErrorKind::Usage,
+                        "`show`: expected a word and atoms with names, got " + inQuotes(word));
+        atoms.push_back(*some);
+    }
+    showAtoms(rules, std::move(atoms), nullptr, surface, progress, picture);
+}
+
+/// The layers of a page.
+std::vector<HtmlLayer> layersOf(const std::vector<ShownSurface>& surfaces,
+                                const std::vector<DrawnSurface>& drawn, const std::string& title,
+                                const Progress& progress)
+{
+    std::vector<HtmlLayer> layers;
+    for (std::size_t n = 0; n < surfaces.size(); ++n) {
+        const ShownSurface& shown = surfaces[n];
+        const std::string about = aboutPage(shown.surface.report.surface.kind, shown.options.voxel);
+        HtmlPage page = pageOf(drawn[n], title, about, progress);
+        page.name = shown.name;
+        page.inPlace = &shown.atoms == &surfaces[0].atoms;
+        layers.push_back({shown.surface.mesh, std::move(page)});
+    }
+    return layers;
 }
 
 } // namespace
@@ -120,42 +149,39 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
                   const SurfaceOptions& options, const std::string& path,
                   const std::vector<std::pair<std::string, std::string>>& settings, bool replace)
 {
+    writePicture({{atoms, surface, options}}, path, settings, replace);
+}
+
+void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& path,
+                  const std::vector<std::pair<std::string, std::string>>& settings, bool replace)
+{
     const Progress nobody;
-    const Mesh& mesh = surface.mesh;
-    checkArrays(mesh);
-    const ColorBy color = options.color;
-    PictureSettings look;
-    for (const auto& [name, value] : settings) pictureSetting(name).set(look, {value});
-    DrawOptions& how = look.picture;
-    setUpright(atoms, how);
-    if (color == ColorBy::Pocket) how.glass = neutralColor;
-    const WholeBalls whole = ballsOfWhole(atoms);
-    for (const Ball& ball : whole.balls) how.about.push_back(ball.center);
     const std::filesystem::path name = path;
-    OutputFile file(path, replace);
-    if (name.extension() == ".html") {
-        HtmlPage page;
-        page.title = name.stem().string();
-        page.about = aboutPage(surface.report.surface.kind, options.voxel);
-        page.legends = offeredLegends(color, atoms, mesh, nobody);
-        page.axes = viewAxes(mesh, how);
-        if (atoms.names) {
-            nameAtoms(*atoms.names, whole.balls, mesh, nobody, page);
-            for (std::int32_t& ball : page.ballOf)
-                if (ball >= 0) ball = std::int32_t(whole.sources[std::size_t(ball)]);
-        }
-        colorCut(atoms, whole.balls, nobody, page);
-        writeHtml(mesh, page, file);
-    } else {
-        const bool repeats = !atoms.placement.isWhole();
-        how.borders = bordersOf(color, repeats ? repeated(atoms, color, whole.sources) : atoms,
-                                asMeshed(whole.balls, options), mesh, nobody);
-        if (how.clip) how.inside = insideColors(options, atoms, openvdb::Vec3d(0.0), how.borders);
-        const auto legends = look.drawsLegend()
-                                 ? legendsOf(legendOf(color, atoms, mesh, nobody), nullptr)
-                                 : std::vector<Legend>();
-        writePng(drawExplained(mesh, std::move(how), legends, look.scaleBar, nobody), file);
+    const bool isPage = name.extension() == ".html";
+    PictureSettings look;
+    for (const auto& [setting, value] : settings) pictureSetting(setting).set(look, {value});
+    if (surfaces.empty()) throw Error(ErrorKind::Usage, path + ": expected a surface, got none");
+    std::vector<WholeBalls> wholes;
+    for (const ShownSurface& shown : surfaces) {
+        checkArrays(shown.surface.mesh);
+        wholes.push_back(ballsOfWhole(shown.atoms));
     }
+    std::vector<DrawnSurface> drawn;
+    for (std::size_t n = 0; n < surfaces.size(); ++n) {
+        const auto& [atoms, surface, options, title, show] = surfaces[n];
+        const bool repeats = !atoms.placement.isWhole();
+        drawn.push_back(
+            {atoms, surface.mesh, options, look.picture, repeats ? &wholes[n] : nullptr});
+        drawn[n].name = title;
+        if (isPage) continue;
+        showAtoms(show, atoms, nobody, drawn[n].look);
+        drawn[n].borders =
+            bordersOf(options.color, repeats ? repeated(atoms, options.color, wholes[n]) : atoms,
+                      asMeshed(wholes[n].balls, options), surface.mesh, nobody);
+    }
+    OutputFile file(path, replace);
+    isPage ? writeHtml(layersOf(surfaces, drawn, name.stem().string(), nobody), file)
+           : writePng(drawSurfaces(drawn, look, nobody), file);
     file.commit();
 }
 

@@ -66,6 +66,25 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
                   const std::vector<std::pair<std::string, std::string>>& settings = {},
                   bool replace = true);
 
+/// A surface in a picture or page, with what it was made of and with.
+struct ShownSurface {
+    const BallSet& atoms;
+    const MolecularSurface& surface;
+    const SurfaceOptions& options;
+    std::string name{}; ///< below its panel, or in the menu of a page
+    /// Atoms with names that a picture shows beside it, and how: a word as of --show.
+    std::vector<std::pair<std::string, const BallSet*>> show{};
+};
+
+/// Draws surfaces side by side, from one eye, in one scale and with one legend, or writes a page
+/// that shows them side by side or one at a time. The first one decides the view.
+/// @param[in] surfaces  at least one; those of the same atoms lie in one place on a page
+/// @param[in] settings  as above
+/// @throws as above
+void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& path,
+                  const std::vector<std::pair<std::string, std::string>>& settings = {},
+                  bool replace = true);
+
 /// Reads positions and triangles from a file in the format that the extension tells: .ply (text or
 /// binary, of either byte order), .obj, or .stl (text or binary). Polygons are split into fans.
 /// Normals, colours and other attributes, materials and groups are skipped.

@@ -275,9 +275,13 @@ class Pictures(ToolTest):
         self.assertFalse(any(300 < x for x in drawn))
         _, named = self.picture(*words, "--label", "A/2")
         self.assertNotEqual(named, plain)
+        _, placed = self.picture(*words, "--ruler", "-10,0,0..resid 2", "--label", "-10,0,0=end")
+        self.assertEqual(placed, rows, "places are those of the atoms")
         for option, value, status, says in (("--label", "=x", 2, "expected SELECTION"), ("--label", "A/1=", 2, "SELECTION=TEXT"),
                                             ("--ruler", "A/1", 2, "SELECTION..SELECTION"), ("--ruler", "A/1..", 2, 'got "A/1.."'),
                                             ("--ruler", "A/1..A/1", 1, "expected two places, got one"),
+                                            ("--ruler", "A/1..-10,0,0", 1, "expected two places, got one"),
+                                            ("--label", "-10,0,0", 1, "expected X,Y,Z=TEXT, got no text"),
                                             ("--label", "A/9", 1, "matches no atom")):
             self.check(status, *words, option, value, "-o", "b.png", says=says)
         self.check(0, *words, "--label", "A/1", "-o", "b.ply", says="--label is for .png")

@@ -4,7 +4,6 @@
 /// @file
 /// The user's request as values.
 
-#include "cli/note_rule.h"
 #include "require.h"
 
 #include "molsurf/io/frame_files.h"
@@ -174,7 +173,7 @@ struct Call : Settings, PictureSettings {
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none
     std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
     bool showsPockets = false;   ///< whether pictures and pages show the bodies of pockets
-    std::vector<NoteRule> notes; ///< labels and rulers of pictures
+    std::vector<NoteText> notes; ///< labels and rulers of pictures
     std::vector<Panel> panels;   ///< of pictures, beside the first one
     int turntable = 0;           ///< number of pictures; 0: one
     bool colorBySign = false;    ///< Compare: by the signed distance

@@ -601,12 +601,12 @@ Option panelOption()
 
 /// An option that adds to the notes of pictures.
 Option noteOption(const char* name, const char* argument, const char* help,
-                  NoteRule (*parse)(const std::string& text))
+                  NoteText (*parse)(const std::string& text, const std::string& what))
 {
     Option note{name, 0, argument, help, "", Build | Batch};
     note.repeats = true;
     note.set = [=](Call& call, const Values& values) {
-        for (const std::string& value : values) call.notes.push_back(parse(value));
+        for (const std::string& value : values) call.notes.push_back(parse(value, "SELECTION"));
     };
     return shownIn(Pixels, note);
 }
@@ -614,17 +614,18 @@ Option noteOption(const char* name, const char* argument, const char* help,
 Option labelOption()
 {
     return noteOption("label", "SEL=TEXT",
-                      "a text at the middle of atoms, such as \"A/57=active site\";\n"
-                      "without one chain, name and number of the residue; repeats",
-                      parseLabel);
+                      "a text at the middle of atoms, such as \"A/57=active site\",\n"
+                      "or at a place X,Y,Z; without one chain, name and number of\n"
+                      "the residue; repeats",
+                      labelText);
 }
 
 Option rulerOption()
 {
     return noteOption("ruler", "SEL..SEL",
-                      "a line between the middles of atoms with its length, such\n"
-                      "as \"A/57/NE2..A/195/OG\"; repeats",
-                      parseRuler);
+                      "a line between the middles of atoms, or places X,Y,Z, with\n"
+                      "its length, such as \"A/57/NE2..A/195/OG\"; repeats",
+                      rulerText);
 }
 
 /// The option of a setting of pictures.
@@ -667,7 +668,8 @@ OptionGroup flowOptions()
              with(setting("steps", structures),
                   [](Option& o) {
                       o.preset = std::to_string(BrickPlan::defaultSteps) + " in bricks, " +
-                                 std::to_string(BrickPlan::defaultFrontSteps) + " at a large lambda";
+                                 std::to_string(BrickPlan::defaultFrontSteps) +
+                                 " at a large lambda";
                   }),
              setting("tolerance", structures), setting("spline-level", wholes | Compare)}};
 }

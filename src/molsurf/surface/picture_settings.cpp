@@ -147,7 +147,48 @@ PictureSetting legendSetting()
     return row;
 }
 
+/// A note between places in space.
+PictureSetting noteSetting(const char* name, const char* value, const char* text,
+                           NoteText (*parse)(const std::string& text, const std::string& what))
+{
+    return {name, value, text, "", {}, [=](PictureSettings& to, const Values& values) {
+                for (const std::string& one : values) {
+                    const NoteText note = parse(one, "X,Y,Z");
+                    const auto from = directionOf(note.places.front());
+                    const auto end = directionOf(note.places.back());
+                    const bool isRuler = note.places.size() > 1;
+                    if (!from || !end || (isRuler ? *from == *end : note.text.empty()))
+                        wrongValue(name, value, one);
+                    to.picture.notes.push_back({*from, {}, note.text});
+                    if (isRuler) to.picture.notes.back().to = *end;
+                }
+            }};
+}
+
 } // namespace
+
+NoteText labelText(const std::string& text, const std::string& what)
+{
+    const std::size_t equals = text.rfind('=');
+    const bool named = equals != std::string::npos;
+    NoteText note{{std::string(trimmed(text.substr(0, equals)))}, ""};
+    if (named) note.text = std::string(trimmed(text.substr(equals + 1)));
+    if (note.places[0].empty() || (named && note.text.empty()))
+        throw Error(ErrorKind::Usage,
+                    "`label`: expected " + what + " or " + what + "=TEXT, got " + inQuotes(text));
+    return note;
+}
+
+NoteText rulerText(const std::string& text, const std::string& what)
+{
+    const std::size_t dots = text.find("..");
+    const std::string from(trimmed(text.substr(0, dots)));
+    const std::string to(dots == std::string::npos ? "" : trimmed(text.substr(dots + 2)));
+    if (from.empty() || to.empty())
+        throw Error(ErrorKind::Usage,
+                    "`ruler`: expected " + what + ".." + what + ", got " + inQuotes(text));
+    return {{from, to}, ""};
+}
 
 std::optional<openvdb::Vec3d> directionOf(const std::string& text)
 {
@@ -194,6 +235,9 @@ const std::vector<PictureSetting>& pictureSettings()
                "", {-1e6, 1e6}, "a number of Å", MOLSURF_OF(picture.clip)),
         flag("depth-cue", "distant parts fade to the background", MOLSURF_OF(picture.depthCue)),
         legendSetting(),
+        noteSetting("label", "X,Y,Z=TEXT", "a text at a place; repeats", labelText),
+        noteSetting("ruler", "X,Y,Z..X,Y,Z", "a line between two places with its length; repeats",
+                    rulerText),
         flag("scale-bar", "a bar below the picture that shows a length", MOLSURF_OF(scaleBar)),
         number("dpi", "N", "pixels an inch when it is printed; `size` stays", "", {1.0, 10000.0},
                "a number from 1 to 10000", MOLSURF_OF(picture.dpi))};

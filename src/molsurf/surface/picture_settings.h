@@ -52,8 +52,18 @@ const std::vector<PictureSetting>& pictureSettings();
 /// @throws Error(ErrorKind::Usage) if there is none
 const PictureSetting& pictureSetting(const std::string& name);
 
-/// A direction X,Y,Z; none: the text is no such.
+/// A direction or a place X,Y,Z; none: the text is no such.
 std::optional<openvdb::Vec3d> directionOf(const std::string& text);
+
+/// The parts of "WHERE=TEXT", and of "WHERE..WHERE": one place or two, and the text of a label.
+struct NoteText {
+    std::vector<std::string> places;
+    std::string text; ///< "": none
+};
+
+/// @throws Error(ErrorKind::Usage) if the text is none; `what` says what WHERE may be
+NoteText labelText(const std::string& text, const std::string& what);
+NoteText rulerText(const std::string& text, const std::string& what);
 
 /// Looks from where a word says: auto, a direction or a file.
 /// @return whether it is one of these

@@ -84,6 +84,40 @@ TEST(Files, DrawASurfaceWithItsLegend)
     EXPECT_HAS(errorWith("sise", "15"), "no option of pictures is named");
 }
 
+/// Two panels are wider than they are high, the names are below, and atoms are seen beside.
+TEST(Files, DrawSurfacesSideBySide)
+{
+    const Colored made;
+    const Folder folder;
+    const ShownSurface one{made.atoms, made.surface, made.options, "one"};
+    const auto draw = [&](const std::vector<ShownSurface>& panels) {
+        writePicture(panels, folder / "a.png", {{"size", "300"}});
+        return contentOf(folder / "a.png");
+    };
+    const auto sideOf = [](const std::string& png, std::size_t at) {
+        return 256 * int(std::uint8_t(png[at + 2])) + int(std::uint8_t(png[at + 3]));
+    };
+    const std::string alone = draw({one}), two = draw({one, one});
+    EXPECT_EQ(sideOf(two, 16), 300);
+    EXPECT_LT(sideOf(two, 20), 0.7 * sideOf(alone, 20));
+    ShownSurface other = one;
+    other.name = "two";
+    EXPECT_EQ(draw({one, other}), two); // no names without a legend
+    const auto named = [&](const ShownSurface& last) {
+        writePicture({one, last}, folder / "a.png", {{"size", "300"}, {"legend", "on"}});
+        return contentOf(folder / "a.png");
+    };
+    EXPECT_NE(named(one), named(other));
+    other.show = {{"spheres", &made.atoms}};
+    EXPECT_NE(draw({one, other}), two);
+    const auto errorWith = [&](const std::vector<ShownSurface>& panels) {
+        return errorOf(ErrorKind::Usage, [&] { draw(panels); });
+    };
+    EXPECT_HAS(errorWith({}), "expected a surface, got none");
+    other.show = {{"A/1=sticks", &made.atoms}};
+    EXPECT_HAS(errorWith({other}), "`show`: expected a word and atoms with names");
+}
+
 #ifndef MOLSURF_NO_VIEWER
 TEST(Files, WriteAPageThatNamesTheAtoms)
 {
@@ -98,6 +132,11 @@ TEST(Files, WriteAPageThatNamesTheAtoms)
     nameless.names.reset();
     writePicture(nameless, made.surface, made.options, folder / "crambin.html");
     EXPECT_EQ(contentOf(folder / "crambin.html").find("TYR"), std::string::npos);
+    writePicture({{made.atoms, made.surface, made.options, "first layer"},
+                  {made.atoms, made.surface, made.options, "second layer"}},
+                 folder / "crambin.html");
+    EXPECT_HAS(contentOf(folder / "crambin.html"), "first layer");
+    EXPECT_HAS(contentOf(folder / "crambin.html"), "second layer");
 }
 
 /// The balls of a copy have the names of those that it is made of.

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/drawn_surface.h"
+
+#include "molsurf/color/palette.h"
+#include "molsurf/core/memory.h"
+#include "molsurf/core/words.h"
+#include "molsurf/error.h"
+#include "molsurf/picture/draw_legend.h"
+#include "molsurf/picture/panels.h"
+#include "molsurf/picture/view.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace molsurf
+{
+
+std::vector<Ball> placedBalls(const BallSet& atoms, const openvdb::Vec3d& origin)
+{
+    std::vector<Ball> balls = atoms.balls;
+    for (Ball& ball : balls) ball.center -= origin;
+    return balls;
+}
+
+std::vector<MeshInstance> instancesOf(const BallSet& atoms, const Mesh& mesh, bool colored,
+                                      const Color& plain, const Progress& progress)
+{
+    const Color one = mesh.colors.empty() ? plain : Color{255, 255, 255};
+    const std::vector<Color> colors =
+        colored ? instanceColors(atoms, progress) : std::vector<Color>();
+    std::vector<MeshInstance> out;
+    for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
+        const Instance& copy = atoms.placement.instances[i];
+        out.push_back({copy.part, "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
+                       copy.rotation, copy.translation, colors.empty() ? one : colors[i]});
+    }
+    return out;
+}
+
+DrawOptions pictureOf(const DrawnSurface& surface, const Progress& progress)
+{
+    const BallSet& atoms = surface.atoms;
+    DrawOptions options = surface.look;
+    if (surface.options.color == ColorBy::Pocket) options.glass = neutralColor;
+    setUpright(atoms, options);
+    options.borders = surface.borders;
+    if (options.clip)
+        options.inside = insideColors(surface.options, atoms, surface.origin, surface.borders);
+    if (surface.whole || atoms.placement.isWhole()) {
+        for (const Ball& ball : surface.whole ? surface.whole->balls : atoms.balls)
+            options.about.emplace_back(ball.center);
+        return options;
+    }
+    options.instances =
+        instancesOf(atoms, surface.mesh, surface.colorsCopies, options.plain, progress);
+    constexpr std::size_t enough = 300; // balls of a prototype
+    for (const MeshInstance& copy : options.instances) {
+        const auto [begin, end] = atoms.prototype(copy.part);
+        for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
+            options.about.push_back(copy.placed(openvdb::Vec3d(atoms.balls[i].center)));
+    }
+    return options;
+}
+
+namespace
+{
+
+/// The colours of chains by their names: those of the surface, and for others their own.
+std::vector<Color> colorsOfChains(const BallSet& atoms,
+                                  const std::map<std::string, Color>& ofSurface,
+                                  const Progress& progress)
+{
+    std::vector<Color> colors = chainColors(atoms, progress);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const auto known = ofSurface.find(atoms.labels->chains[i]);
+        if (known != ofSurface.end()) colors[i] = known->second;
+    }
+    return colors;
+}
+
+} // namespace
+
+void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
+               const std::shared_ptr<const FileBonds>& bonds, const BallSet& surface,
+               const Progress& progress, DrawOptions& picture)
+{
+    if (atoms.empty()) return;
+    std::map<std::string, Color> ofSurface;
+    if (surface.labels) {
+        const std::vector<Color> own = chainColors(surface, progress);
+        for (std::size_t i = 0; i < own.size(); ++i) ofSurface[surface.labels->chains[i]] = own[i];
+    }
+    std::vector<ShownAtoms> shown;
+    for (std::size_t k = 0; k < atoms.size(); ++k) {
+        atoms[k].labels->chainColors = colorsOfChains(atoms[k], ofSurface, progress);
+        shown.push_back({std::move(atoms[k]), rules[k], bonds});
+    }
+    const double bytes = bytesOfModel(shown), available = double(availableMemory());
+    if (bytes > available)
+        throw Error(ErrorKind::Input,
+                    "`show`: these atoms take about " + sizeText(bytes) +
+                        " of memory, and there are " + sizeText(available) +
+                        ", expected fewer atoms",
+                    true);
+    picture.model = std::make_shared<AtomModel>(atomModel(shown, progress));
+}
+
+std::vector<Legend> legendsOf(const std::vector<DrawnSurface>& surfaces, const Progress& progress)
+{
+    std::vector<Legend> all;
+    for (const DrawnSurface& surface : surfaces) {
+        const auto own =
+            surface.legend ? surface.legend
+                           : legendOf(surface.options.color, surface.atoms, surface.mesh, progress);
+        for (const Legend& legend : legendsOf(own, surface.look.model.get())) {
+            const auto known = std::find_if(all.begin(), all.end(), [&](const Legend& other) {
+                return other.title == legend.title;
+            });
+            if (known == all.end())
+                all.push_back(legend);
+            else
+                for (const LegendEntry& entry : legend.entries) addEntry(entry, known->entries);
+        }
+    }
+    return all;
+}
+
+namespace
+{
+
+/// One direction for all panels but those that have their own, and one scale. Each panel shows the
+/// middle of its structure, unless its options say what it shows.
+void shareCamera(const std::vector<DrawnSurface>& surfaces, std::vector<DrawOptions>& shots)
+{
+    DrawOptions level = shots[0];
+    level.turn = 0.0;
+    const auto axes = viewAxes(surfaces[0].mesh, level);
+    PictureFrame largest{openvdb::Vec3d(0.0), 0.0, 0.0};
+    std::vector<openvdb::Vec3d> centers;
+    for (std::size_t n = 0; n < shots.size(); ++n) {
+        DrawOptions& options = shots[n];
+        if (!surfaces[n].ownEye) {
+            options.upright = openvdb::Vec3d(0.0);
+            options.up = axes[1];
+            options.toEye = axes[2];
+        }
+        options.turnable = options.turnable || options.turn != 0.0;
+        const View view = chooseView(surfaces[n].mesh, options);
+        centers.push_back(view.center);
+        largest.width = std::max(largest.width, view.width * view.pixel);
+        largest.height = std::max(largest.height, view.height * view.pixel);
+    }
+    for (std::size_t n = 0; n < shots.size(); ++n)
+        shots[n].frame = PictureFrame{centers[n], largest.width, largest.height};
+}
+
+} // namespace
+
+Picture drawSurfaces(const std::vector<DrawnSurface>& surfaces, const PictureSettings& settings,
+                     const Progress& progress)
+{
+    const bool explains = settings.drawsLegend();
+    const std::vector<Legend> legends =
+        explains ? legendsOf(surfaces, progress) : std::vector<Legend>();
+    std::vector<DrawOptions> shots;
+    for (const DrawnSurface& surface : surfaces) shots.push_back(pictureOf(surface, progress));
+    if (shots.size() == 1)
+        return drawExplained(surfaces[0].mesh, std::move(shots[0]), legends, settings.scaleBar,
+                             progress);
+    shareCamera(surfaces, shots);
+    const int whole = shots[0].width, width = widthBeside(legends, whole);
+    const Color background = shots[0].background;
+    std::vector<PanelPicture> panels;
+    for (std::size_t n = 0; n < shots.size(); ++n) {
+        shots[n].width = panelWidth(shots.size(), width);
+        shots[n].whole = whole;
+        panels.push_back(
+            {drawMesh(surfaces[n].mesh, shots[n], progress), explains ? surfaces[n].name : ""});
+    }
+    return explained(joinPanels(panels, width, whole, background), legends, settings.scaleBar,
+                     whole, background);
+}
+
+HtmlPage pageOf(const DrawnSurface& surface, const std::string& title, const std::string& about,
+                const Progress& progress)
+{
+    const BallSet& atoms = surface.atoms;
+    DrawnSurface colored = surface;
+    colored.colorsCopies = true; // the page offers these colours
+    const DrawOptions view = pictureOf(colored, progress);
+    HtmlPage page;
+    page.title = title;
+    page.about = about;
+    page.legends = surface.legend
+                       ? std::vector{*surface.legend}
+                       : offeredLegends(surface.options.color, atoms, surface.mesh, progress);
+    page.plain = surface.look.plain;
+    page.axes = viewAxes(surface.mesh, view);
+    page.instances = view.instances;
+    page.copiesFirst = surface.colorsCopies;
+    const std::vector<Ball> balls =
+        surface.whole ? surface.whole->balls : placedBalls(atoms, surface.origin);
+    if (atoms.names) nameAtoms(*atoms.names, balls, surface.mesh, progress, page);
+    for (std::int32_t& ball : page.ballOf)
+        if (surface.whole && ball >= 0)
+            ball = std::int32_t(surface.whole->sources[std::size_t(ball)]);
+    colorCut(atoms, balls, progress, page);
+    return page;
+}
+
+} // namespace molsurf
