@@ -221,7 +221,7 @@ public:
         for (const ShowRule& rule : call_.shows) shown_.push_back(pictured(rule.select));
         for (const NoteText& note : call_.notes)
             for (const std::string& place : note.places)
-                if (!directionOf(place)) noted_.push_back(pictured(place));
+                if (!placeIn(place)) noted_.push_back(pictured(place));
         if (!call_.viewed.empty())
             lookAt(call_, pictured(call_.viewed)->balls(0), source_.balls(0), call_.picture);
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);

@@ -49,7 +49,7 @@ void addNotes(const std::vector<NoteText>& notes,
     for (const NoteText& text : notes) {
         std::string residue;
         const auto placeOf = [&](const std::string& place) {
-            if (const auto point = directionOf(place)) return *point;
+            if (const auto point = placeIn(place)) return *point;
             const BallSet atoms = atomsOf(place);
             const BallNames::Residue& first = atoms.names->residues[0];
             residue = first.chain + " " + first.name + " " + numberText(first);

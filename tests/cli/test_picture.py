@@ -277,11 +277,14 @@ class Pictures(ToolTest):
         self.assertNotEqual(named, plain)
         _, placed = self.picture(*words, "--ruler", "-10,0,0..resid 2", "--label", "-10,0,0=end")
         self.assertEqual(placed, rows, "places are those of the atoms")
+        _, far = self.picture(*words, "--label", "0,90,0=far")
+        self.assertGreater(len(far), 2 * height, "what lies outside of the surface is seen, too")
         for option, value, status, says in (("--label", "=x", 2, "expected SELECTION"), ("--label", "A/1=", 2, "SELECTION=TEXT"),
                                             ("--ruler", "A/1", 2, "SELECTION..SELECTION"), ("--ruler", "A/1..", 2, 'got "A/1.."'),
                                             ("--ruler", "A/1..A/1", 1, "expected two places, got one"),
                                             ("--ruler", "A/1..-10,0,0", 1, "expected two places, got one"),
                                             ("--label", "-10,0,0", 1, "expected X,Y,Z=TEXT, got no text"),
+                                            ("--label", "nan,0,0=x", 1, "nan,0,0"), ("--label", "1e7,0,0=x", 2, "1e7,0,0"),
                                             ("--label", "A/9", 1, "matches no atom")):
             self.check(status, *words, option, value, "-o", "b.png", says=says)
         self.check(0, *words, "--label", "A/1", "-o", "b.ply", says="--label is for .png")

@@ -52,7 +52,8 @@ void addSpan(const Mesh& mesh, const std::vector<MeshInstance>& instances, int d
     }
 }
 
-/// Points that span what is shown: the vertices, or of copies the outermost ones.
+/// Points that span what is shown: the vertices, or of copies the outermost ones, atoms, and the
+/// places of notes.
 class Span
 {
 public:
@@ -60,6 +61,10 @@ public:
         : vertices_(options.instances.empty() ? &mesh.positions : nullptr)
     {
         if (!vertices_) addSpan(mesh, options.instances, manyDirections, others_);
+        for (const PictureNote& note : options.notes) {
+            others_.push_back(note.from);
+            if (note.to) others_.push_back(*note.to);
+        }
         const AtomModel* model = options.model.get();
         if (!model) return;
         const int directions =

@@ -154,8 +154,8 @@ PictureSetting noteSetting(const char* name, const char* value, const char* text
     return {name, value, text, "", {}, [=](PictureSettings& to, const Values& values) {
                 for (const std::string& one : values) {
                     const NoteText note = parse(one, "X,Y,Z");
-                    const auto from = directionOf(note.places.front());
-                    const auto end = directionOf(note.places.back());
+                    const auto from = placeIn(note.places.front());
+                    const auto end = placeIn(note.places.back());
                     const bool isRuler = note.places.size() > 1;
                     if (!from || !end || (isRuler ? *from == *end : note.text.empty()))
                         wrongValue(name, value, one);
@@ -201,6 +201,14 @@ std::optional<openvdb::Vec3d> directionOf(const std::string& text)
         from = stop + 1;
     }
     return way;
+}
+
+std::optional<openvdb::Vec3d> placeIn(const std::string& text)
+{
+    const auto place = directionOf(text);
+    for (int a = 0; place && a < 3; ++a)
+        if (!(std::abs((*place)[a]) <= 1e6)) return std::nullopt;
+    return place;
 }
 
 const char* nameOf(LegendChoice choice)

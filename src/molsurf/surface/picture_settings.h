@@ -52,8 +52,11 @@ const std::vector<PictureSetting>& pictureSettings();
 /// @throws Error(ErrorKind::Usage) if there is none
 const PictureSetting& pictureSetting(const std::string& name);
 
-/// A direction or a place X,Y,Z; none: the text is no such.
+/// A direction X,Y,Z; none: the text is no such.
 std::optional<openvdb::Vec3d> directionOf(const std::string& text);
+
+/// A place X,Y,Z within 1e6 Å of the origin; none: the text is no such.
+std::optional<openvdb::Vec3d> placeIn(const std::string& text);
 
 /// The parts of "WHERE=TEXT", and of "WHERE..WHERE": one place or two, and the text of a label.
 struct NoteText {
