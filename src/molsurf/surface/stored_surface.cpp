@@ -327,9 +327,7 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
         stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
                                   "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
-    SurfaceOptions own = options;
-    own.voxel = operand.voxel;
-    SurfaceRun run(stored.names, own, Scope(), progress);
+    SurfaceRun run(stored.names, {withVoxel(options, operand.voxel), options}, Scope(), progress);
     const Pose pose = operand.surface.pose;
     run.resume(std::move(operand.surface.mesh), std::move(*operand.surface.spline),
                operand.levelSet);
