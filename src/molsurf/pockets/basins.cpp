@@ -114,14 +114,16 @@ void joinSmall(const std::vector<std::size_t>& sizes, double leastVoxels, Parts&
         return std::pair(size[std::size_t(a)], a) < std::pair(size[std::size_t(b)], b);
     });
     for (const std::int32_t p : small) {
-        if (parts.find(p) != p || double(size[std::size_t(p)]) >= leastVoxels) continue;
+        const std::int32_t own = parts.find(p); // another one that was small, perhaps
+        if (double(size[std::size_t(own)]) >= leastVoxels) continue;
         Neighbour best(-1.0f, -1);
-        for (const auto& [clearance, other] : near[std::size_t(p)]) {
+        for (const auto& [clearance, other] : near[std::size_t(own)]) {
             const std::int32_t root = parts.find(other);
-            if (root != p) best = std::max(best, Neighbour(clearance, root));
+            if (root != own) best = std::max(best, Neighbour(clearance, root));
         }
         if (best.second < 0) continue;
-        const std::int32_t root = parts.join(p, best.second), last = root == p ? best.second : p;
+        const std::int32_t root = parts.join(own, best.second),
+                           last = root == own ? best.second : own;
         size[std::size_t(root)] += size[std::size_t(last)];
         auto& kept = near[std::size_t(root)];
         kept.insert(kept.end(), near[std::size_t(last)].begin(), near[std::size_t(last)].end());

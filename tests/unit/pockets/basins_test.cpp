@@ -61,6 +61,15 @@ TEST(Basins, SmallOnesJoinTheWidestNeck)
     EXPECT_NE(basinOf(space, joined, 2), basinOf(space, joined, 0));
 }
 
+/// Two small ones that join are one small one, which joins the next.
+TEST(Basins, SmallOnesJoinUntilTheyAreLarge)
+{
+    const VoidField space = rowOf({3.0f, 1.4f, 2.9f, 2.8f, 1.2f, 4.0f, 4.0f, 4.0f, 4.0f, 4.0f});
+    EXPECT_EQ(splitAtNecks(space, 0.5, 0.0).count(), 3u);
+    EXPECT_EQ(splitAtNecks(space, 0.5, 4.0).count(), 2u);
+    EXPECT_EQ(splitAtNecks(space, 0.5, 5.0).count(), 1u);
+}
+
 TEST(Basins, WhatDoesNotHangTogetherStaysApart)
 {
     const VoidField space = rowOf({2.0f, 2.0f, -1.0f, 2.0f, 2.0f});
