@@ -59,6 +59,12 @@ bool goesInBricks(const Call& call);
 /// Limits of a surface by a call and on this machine.
 RunLimits limitsOf(const Call& call);
 
+/// The same of a surface of atoms, with the bodies that pictures show.
+RunLimits limitsOf(const Call& call, const BallSet& atoms);
+
+/// Whether pictures show what is behind the nearest wall, too.
+bool seesBehind(const Call& call);
+
 /// The last line of a run.
 std::string summary(const Report& report);
 

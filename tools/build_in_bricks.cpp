@@ -126,7 +126,7 @@ int buildInBricks(Call call, Clock::time_point start)
                                           std::to_string(reading / 1000000 * 12 / 10) + "M]");
     if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, availableMemory());
     BrickPlan one = planWhole(atoms, call.options, terminal);
-    RunLimits limits = limitsOf(call);
+    RunLimits limits = limitsOf(call, atoms);
     limits.memory = std::numeric_limits<std::size_t>::max(); // bricks take less
     if (!call.dryRun) checkCost(one.bricks[0], limits);
     one.bricks[0].bytes += limits.besides.bytes;

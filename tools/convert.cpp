@@ -69,7 +69,8 @@ int convert(const Call& asked, Clock::time_point start)
     const VdbFile file = readVdb(asked.input, [&](const VdbContent& content) {
         cost = costOfStored(content);
         if (asked.writes(Pixels)) {
-            const PlannedBrick drawing = costOfPicture(cost.voxels, asked.picture.width);
+            const PlannedBrick drawing =
+                costOfPicture(cost.voxels, asked.picture.width, seesBehind(asked));
             cost.bytes += drawing.bytes;
             cost.seconds += drawing.seconds;
         }

@@ -175,6 +175,14 @@ class Limits(ToolTest):
             peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
             self.assertTrue(0.7 < estimate / peak < 1.5, (width, estimate, peak))
 
+    def test_a_dry_run_knows_of_pockets(self):
+        for more in ([], ["--probe-out", "8"], ["--show", "pockets", "--opacity", "0.4", "-o", "a.png"]):
+            words = (DATA / "4at1.ent.gz", "--voxel", "0.5", "--pockets", "-o", "a.json", *more)
+            said = self.check(0, *words, "--force", "--dry-run").stderr.decode()
+            self.check(0, *words, "--force")
+            peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
+            self.assertTrue(0.9 < size_of(said) / peak < 1.5, (more, size_of(said), peak))
+
     def test_a_dry_run_knows_of_drawing(self):
         words = (CRAMBIN, *FAST, "-o", "a.png", "-o", "a.json", "--size", "1200")
         said = self.check(0, *words, "--dry-run").stderr.decode()

@@ -9,6 +9,7 @@
 #include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/influence.h"
+#include "molsurf/surface/pockets.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <tbb/parallel_sort.h>
@@ -61,8 +62,14 @@ constexpr double bytesOfPlyPerVoxel = 12.0, bytesPerReadVoxel = 44.0;       // o
 constexpr double secondsPerComparedVoxel = 0.6e-6;                          // more from afar
 // measured: convert of sas, 4AT1 and 1CRN at 1 and 0.7 Å, 300 to 2400 pixels: 1.2 to 1.5 times
 // the peak, since --show pockets with --opacity takes as much more.
-constexpr double bytesPerPixel = 85.0, secondsPerPixel = 3e-6;             // of a square picture
+constexpr double bytesPerPixel = 85.0, secondsPerPixel = 3e-6; // of a square picture
+constexpr double bytesPerLayeredPixel =
+    55.0; // more, measured: build of these, --opacity 0.4 --all-walls
 constexpr double bytesPerDrawnVoxel = 94.0, secondsPerDrawnVoxel = 0.5e-6; // rays find triangles
+// measured: build --pockets of 1CRN, 1D3Z, 4AT1, 6ZU5 on voxels of 0.25 to 1 Å, --probe-out 3 to
+// 50: 1.0 to 1.5 times the peak.
+constexpr double bytesOfPocketsPerBall = 3.9e3, secondsOfPocketsPerBall = 1e-4; // voxels of 1 Å
+constexpr double morePerProbeOut = 0.12, morePerProbeOut2 = 4e-3; // of both, for each Å above 4
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
@@ -566,7 +573,11 @@ BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const P
     const double grain = grainOf(atoms.balls, options.voxel, influence.ofSurface());
     constexpr double most = 1.5e6; // leaves, in 18 MB
     BrickPlan plan = makePlan(atoms, options, influence, {1, 0}, grain, most, progress);
-    plan.bricks[0].bytes += std::size_t(bytesOfNodes(atoms.balls, options.voxel));
+    PlannedBrick& whole = plan.bricks[0];
+    const PlannedBrick pockets = costOfPockets(atoms, options);
+    whole.bytes += std::size_t(bytesOfNodes(atoms.balls, options.voxel));
+    whole.bytes = std::max(whole.bytes, pockets.bytes);
+    whole.seconds += pockets.seconds;
     return plan;
 }
 
@@ -608,11 +619,12 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
     const double leaves =
         leavesAtMost(atoms.balls, options.voxel, Influence(atoms, options).ofSurface());
     const double balls = double(atoms.balls.size());
+    const PlannedBrick pockets = costOfPockets(atoms, options);
     const double bytes =
-        processBytes + double(limits.besides.bytes) +
+        processBytes + double(limits.besides.bytes) + double(pockets.bytes) +
         (bytesPerAtom + bytesPerNear + bytesPerBoundaryBall) * balls +
         (4.0 * bytesPerUnionLeaf + bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
-    const double seconds = limits.besides.seconds +
+    const double seconds = limits.besides.seconds + pockets.seconds +
                            2.0 * (secondsPerLeaf * leaves + secondsOfFlow(options, leaves)) +
                            secondsPerBoundaryBall * balls;
     if (bytes < double(limits.memory) && seconds < 3600.0 * limits.hours * limits.threads)
@@ -660,11 +672,25 @@ PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b)
     return cost;
 }
 
-PlannedBrick costOfPicture(std::size_t voxels, int width)
+PlannedBrick costOfPockets(const BallSet& atoms, const SurfaceOptions& options)
+{
+    PlannedBrick cost;
+    if (!wantsPockets(options)) return cost;
+    const double balls = double(atoms.balls.size()), h = options.voxel;
+    const double wider = std::max(options.pocket.probeOut - 4.0, 0.0);
+    const double wide = 1.0 + morePerProbeOut * wider + morePerProbeOut2 * wider * wider;
+    cost.bytes =
+        std::size_t(processBytes + bytesOfPocketsPerBall * wide * balls * std::pow(h, -2.1));
+    cost.seconds = secondsOfPocketsPerBall * wide * balls / h;
+    return cost;
+}
+
+PlannedBrick costOfPicture(std::size_t voxels, int width, bool isLayered)
 {
     const double pixels = double(width) * double(width);
     PlannedBrick cost;
-    cost.bytes = std::size_t(bytesPerPixel * pixels + bytesPerDrawnVoxel * double(voxels));
+    cost.bytes = std::size_t((bytesPerPixel + (isLayered ? bytesPerLayeredPixel : 0.0)) * pixels +
+                             bytesPerDrawnVoxel * double(voxels));
     cost.seconds = secondsPerPixel * pixels + secondsPerDrawnVoxel * double(voxels);
     return cost;
 }

@@ -53,9 +53,14 @@ PlannedBrick costOfMesh(std::size_t bytes, bool flat);
 PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b);
 
 /// Cost of drawing a surface, without that of making it.
-/// @param[in] voxels  of the surface
-/// @param[in] width   of the picture [pixel]
-PlannedBrick costOfPicture(std::size_t voxels, int width);
+/// @param[in] voxels    of the surface
+/// @param[in] width     of the picture [pixel]
+/// @param[in] isLayered whether what is behind the nearest wall is seen, too
+PlannedBrick costOfPicture(std::size_t voxels, int width, bool isLayered);
+
+/// Cost of finding the pockets of a surface, if its options ask for them. The memory is that of the
+/// process, in the place of what the surface takes.
+PlannedBrick costOfPockets(const BallSet& atoms, const SurfaceOptions& options);
 
 /// Checks the numbers of a plan that was read from a file, which could prolong a run or lead it out
 /// of space: its steps are those that the options say, and its bricks are boxes of whole leaves.
