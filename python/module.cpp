@@ -8,6 +8,7 @@
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 #include <tbb/global_control.h>
@@ -18,6 +19,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace molsurf::python
 {
@@ -466,24 +468,34 @@ nb::tuple comparisonOf(const Mesh& a, const Mesh& b, const How& how)
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-/// Surfaces beside the first one in a picture or page, with their names.
-using Panels = std::vector<std::pair<std::string, const MadeSurface*>>;
+/// What a picture or page shows beside a surface: the name of that, other surfaces with names, and
+/// atoms with words of styles.
+using Beside = std::tuple<std::string, std::vector<std::pair<std::string, const MadeSurface*>>,
+                          std::vector<std::pair<std::string, const Molecule*>>>;
+
+/// Writes a picture or page.
+void savePicture(const MadeSurface& surface, const std::string& path, bool replace,
+                 const Words& settings, const Beside& beside)
+{
+    nb::gil_scoped_release free;
+    const auto& [name, panels, show] = beside;
+    std::vector<ShownSurface> shown = {
+        {surface.atoms.get(), &surface.result, &surface.options, name}};
+    for (const auto& [title, other] : panels)
+        shown.push_back({other->atoms.get(), &other->result, &other->options, title});
+    for (const auto& [style, atoms] : show) shown[0].show.emplace_back(style, atoms->atoms.get());
+    writePicture(shown, path, settings, replace);
+}
 
 void save(const MadeSurface& surface, const std::string& path, bool replace,
-          const std::string& scene, const Words& settings, const std::string& name,
-          const Panels& panels, const std::vector<std::pair<std::string, const Molecule*>>& show)
+          const std::string& scene)
 {
     nb::gil_scoped_release free;
     const std::string end = std::filesystem::path(path).extension().string();
     if (end == ".vdb") return writeVdb(surface.result, path, replace, scene);
     if (end == ".json") return writeReport(surface.result.report, path, replace);
-    if (end == ".png" || end == ".html") {
-        std::vector<ShownSurface> shown = {{*surface.atoms, surface.result, surface.options, name}};
-        for (const auto& [title, other] : panels)
-            shown.push_back({*other->atoms, other->result, other->options, title});
-        for (const auto& [style, some] : show) shown[0].show.emplace_back(style, some->atoms.get());
-        return writePicture(shown, path, settings, replace);
-    }
+    if (end == ".png" || end == ".html")
+        return writePicture(*surface.atoms, surface.result, surface.options, path, {}, replace);
     std::string all;
     bool known = false;
     for (const std::string& one : meshEndings()) {
@@ -612,6 +624,7 @@ void addSurface(nb::module_& m)
                  return gradientsOf(s, {progress, threads});
              })
         .def("save", save)
+        .def("save_picture", savePicture)
         .def("state", packSurface);
 }
 

@@ -14,7 +14,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 # The folders of src/molsurf in their order: each may include those before it, if it is not named here.
 FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelset", "topology", "pockets", "flow", "mesh", "color",
            "io", "picture", "surface", "bricks", "tools"]
-# The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it.
+# The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it. (The
+# function compare() of mesh.h is in surface/compare.cpp: it is for callers of the library.)
 FACE = {"error.h": "core", "progress.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "pockets",
         "report.h": "levelset", "mesh.h": "mesh", "surface.h": "surface", "files.h": "tools",
         "bricks.h": "bricks", "settings.h": "surface", "molsurf.h": "tools"}

@@ -6,9 +6,6 @@
 #include "outputs.h"
 #include "verbs.h"
 
-#include "molsurf/color/color_table.h"
-#include "molsurf/color/palette.h"
-#include "molsurf/color/value_colors.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/atom_model.h"

@@ -140,8 +140,8 @@ void Film::begin()
     if (pipe2(ends.data(), O_CLOEXEC) != 0) file_.fail("cannot write");
     const FileDescriptor input(ends[0]);
     pipe_ = FileDescriptor(ends[1]);
-    said_ = FileDescriptor(memfd_create("ffmpeg", MFD_CLOEXEC));
-    if (!said_) file_.fail("cannot write");
+    errors_ = FileDescriptor(memfd_create("ffmpeg", MFD_CLOEXEC));
+    if (!errors_) file_.fail("cannot write");
 
     const Coding& coding = codingOf(file_.path());
     std::vector<std::string> words = {"ffmpeg",
@@ -173,7 +173,7 @@ void Film::begin()
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, input.get(), STDIN_FILENO);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, said_.get(), STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&files, errors_.get(), STDERR_FILENO);
     const int problem =
         posix_spawnp(&program_, "ffmpeg", &files, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&files);
@@ -213,7 +213,7 @@ std::unique_ptr<OutputFile> Film::finish()
 {
     if (program_ == 0 || wait() != 0) fail();
     // It may have failed to write and ended well: then it has said something.
-    if (lseek(said_.get(), 0, SEEK_END) > 0) fail();
+    if (lseek(errors_.get(), 0, SEEK_END) > 0) fail();
     file_.finish();
     return std::move(own_);
 }
@@ -223,7 +223,7 @@ void Film::fail()
     if (program_ != 0) wait();
     stopIfAsked(); // a signal from the keyboard ends both
     std::string all(1 << 16, '\0'), line;
-    const ssize_t size = pread(said_.get(), all.data(), all.size(), 0);
+    const ssize_t size = pread(errors_.get(), all.data(), all.size(), 0);
     all.resize(std::size_t(std::max<ssize_t>(size, 0)));
     std::istringstream lines(all);
     std::string last = "it ended early";

@@ -57,9 +57,9 @@ private:
     std::unique_ptr<OutputFile> own_;
     OutputFile& file_;
     double rate_;
-    int width_ = 0, height_ = 0; ///< [pixel]
-    pid_t program_ = 0;          ///< 0: it does not run
-    FileDescriptor pipe_, said_; ///< to its input; what it says
+    int width_ = 0, height_ = 0;   ///< [pixel]
+    pid_t program_ = 0;            ///< 0: it does not run
+    FileDescriptor pipe_, errors_; ///< to its input; its error messages
 };
 
 } // namespace molsurf::tool

@@ -19,6 +19,7 @@
 #include "molsurf/io/write_table.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/picture/view.h"
+#include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
 #include "molsurf/surface/surface_kind.h"
@@ -325,6 +326,14 @@ private:
         return source;
     }
 
+    /// Adds the labels and rulers of frame i.
+    void addNotesOf(std::size_t i, DrawOptions& picture) const
+    {
+        std::size_t next = 0;
+        addNotes(
+            call_.notes, [&](const std::string&) { return noted_[next++]->balls(i); }, picture);
+    }
+
     /// All frames are seen from one side, in one size.
     void keepOneView()
     {
@@ -345,6 +354,11 @@ private:
             };
             add(source_.balls(i));
             for (const auto& source : shown_) add(source->balls(i));
+            DrawOptions noted;
+            addNotesOf(i, noted);
+            for (const PictureNote& note : noted.notes)
+                for (const auto& place : {note.from, note.to.value_or(note.from)})
+                    points.push_back(place - origin);
             return points;
         };
         keepView(source_.size(), pointsOf, margin, call_.picture);
@@ -390,10 +404,7 @@ private:
         for (const auto& source : shown_) shown.push_back(source->balls(i));
         showAtoms(call_.shows, std::move(shown), shown_.empty() ? nullptr : shown_[0]->bonds(),
                   balls, terminal_, calls_[i].picture);
-        std::size_t next = 0;
-        addNotes(
-            call_.notes, [&](const std::string&) { return noted_[next++]->balls(i); },
-            calls_[i].picture);
+        addNotesOf(i, calls_[i].picture);
         Report read;
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};

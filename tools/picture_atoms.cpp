@@ -5,9 +5,8 @@
 #include "molsurf/error.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/selection/ball_names.h"
-#include "molsurf/surface/check_balls.h"
 
-#include <memory>
+#include <algorithm>
 #include <utility>
 
 namespace molsurf::tool
@@ -42,6 +41,12 @@ SelectOptions picturedAtoms(const Call& call, const std::string& select)
     return options;
 }
 
+bool isOfPlaces(const NoteText& note)
+{
+    return std::all_of(note.places.begin(), note.places.end(),
+                       [](const std::string& place) { return bool(placeIn(place)); });
+}
+
 void addNotes(const std::vector<NoteText>& notes,
               const std::function<BallSet(const std::string& select)>& atomsOf,
               DrawOptions& picture)
@@ -62,9 +67,6 @@ void addNotes(const std::vector<NoteText>& notes,
                 throw Error(ErrorKind::Input, "--ruler " + text.places[0] + ".." + text.places[1] +
                                                   ": expected two places, got one");
         } else if (note.text.empty()) {
-            if (residue.empty())
-                throw Error(ErrorKind::Input,
-                            "--label " + text.places[0] + ": expected X,Y,Z=TEXT, got no text");
             note.text = residue;
         }
         picture.notes.push_back(std::move(note));

@@ -8,7 +8,7 @@
 
 #include "molsurf/atoms.h"
 #include "molsurf/progress.h"
-#include "molsurf/surface/drawn_surface.h"
+#include "molsurf/surface/picture_settings.h"
 
 #include <functional>
 #include <string>
@@ -21,9 +21,12 @@ namespace molsurf::tool
 /// the surface's.
 SelectOptions picturedAtoms(const Call& call, const std::string& select);
 
+/// Whether a note names no atoms: then it belongs to the first structure of a picture.
+bool isOfPlaces(const NoteText& note);
+
 /// Adds labels and rulers of selections and places.
 /// @param[in] atomsOf  gives the atoms of a selection; it is asked in the order of the notes
-/// @throws Error(ErrorKind::Input) if a ruler has no length, or a label of a place no text
+/// @throws Error(ErrorKind::Input) if a ruler has no length
 void addNotes(const std::vector<NoteText>& notes,
               const std::function<BallSet(const std::string& select)>& atomsOf,
               DrawOptions& picture);

@@ -9,6 +9,7 @@
 #include "molsurf/io/read_mesh.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/structure/read_structure.h"
+#include "molsurf/surface/drawn_surface.h"
 
 #include <malloc.h>
 
@@ -65,7 +66,8 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
     }
     showAtoms(rules, std::move(shown), structure.bonds, balls, terminal, *picture);
     for (const NoteText& note : call.notes)
-        isThere(partly, [&] { addNotes({note}, chosen, *picture); });
+        if (!partly || !isOfPlaces(note))
+            isThere(partly, [&] { addNotes({note}, chosen, *picture); });
     if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);
     return {std::move(balls), std::move(description)};
 }

@@ -207,8 +207,8 @@ Picture draw(const Writing& w, double turn, bool quick)
 /// Says that pictures show nothing of the surface, since --clip cuts all of it away.
 void warnOfClip(const Writing& w)
 {
+    if (!w.call.picture.clip || w.output.turn != 0.0 || w.call.quiet) return;
     const DrawOptions options = pictureOf(drawnOf(w), w.progress);
-    if (!options.clip || w.output.turn != 0.0 || w.call.quiet) return;
     const double low = chooseView(w.mesh, options).low;
     if (*options.clip > low) return;
     say(formatted("warning: --clip %g: it cuts all of the surface away, expected more than %.1f",
@@ -291,7 +291,6 @@ void writePage(const Writing& w, OutputFile& file)
         {w.mesh, pageOf(drawnOf(w), title, w.shown.about, w.progress)}};
     layers[0].page.name = firstName(call);
     layers[0].page.coarser = w.coarser;
-    layers[0].page.opacity = call.picture.opacity;
     if (call.showsPockets) layers[0].page.bodies = w.shown.bodies.get();
     if (w.shown.about.empty())
         layers[0].page.about = aboutPage(w.result.report.surface.kind, call.options.voxel);

@@ -106,7 +106,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "conver
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l plain-color -r -d 'of a surface without --color'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l style -x -a 'soft glossy outline flat' -d 'soft; glossy: with highlights; outline: as drawn with a'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l show -x -a 'sticks balls orders spheres tube pockets' -d 'atoms beside the surface, whole and opaque, such as'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l label -r -d 'a text at the middle of atoms, such as "A/57=active site",'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l label -r -d 'a text at the middle of atoms, such as "A/57=active site";'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l ruler -r -d 'a line between the middles of atoms, or places X,Y,Z, with'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l panel -r -d 'a further picture beside the first, with its camera, scale'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l opacity -r -d 'of the surface, seen from the front'

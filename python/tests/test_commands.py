@@ -60,9 +60,10 @@ def test_panels_and_notes_are_those_of_the_command(tmp_path):
     molecule = ms.read(DATA / "1crn.pdb", voxel=1, color="chain")
     made, ses = molecule.surface(), molecule.surface(kind="ses")
     subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--voxel", "1", "--color", "chain", "-q", "--panel", "ses",
-                    "--label", "9,10,11=here", "--ruler", "9,10,11..2,3,4.5", "--show", "A/5-9=sticks", "--size", "600",
+                    "--label", "9,10,11=x = here", "--ruler", "9,10,11..2,3,4.5", "--show", "A/5-9=sticks", "--size", "600",
+                    "--opacity", "0.4",
                     "-o", tmp_path / "b.png"], check=True)
-    made.picture(tmp_path / "a.png", 600, label=[((9, 10, 11), "here")], ruler=[((9, 10, 11), (2, 3, 4.5))], panels=[ses],
+    made.picture(tmp_path / "a.png", 600, opacity=0.4, label=[((9, 10, 11), "x = here")], ruler=[((9, 10, 11), (2, 3, 4.5))], panels=[ses],
                  show={"sticks": ms.read(DATA / "1crn.pdb", select="A/5-9")})
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
     made.picture(tmp_path / "c.png", 600, panels={"": "variational", "ses": ses})
@@ -85,10 +86,12 @@ def test_wrong_panels_and_notes(tmp_path):
     for error, said, given in ((TypeError, "panels: expected surfaces, got str", {"panels": ["ses"]}),
                                (ValueError, r"label: expected a place \(x, y, z\)", {"label": [((1, 2), "here")]}),
                                (ValueError, r"ruler: expected a place \(x, y, z\)", {"ruler": [((1, 2, 3), (1, 2, float("nan")))]}),
-                               (ms.OptionError, "`ruler`: expected X,Y,Z..X,Y,Z", {"ruler": [((1, 2, 3), (1, 2, 3))]}),
+                               (TypeError, "panels: expected the name of this surface", {"panels": {"": made}}),
+                               (ms.OptionError, "`ruler`: expected two places", {"ruler": [((1, 2, 3), (1, 2, 3))]}),
+                               (ms.OptionError, "`label`: expected X,Y,Z=TEXT within 1e6", {"label": [((1e7, 2, 3), "far")]}),
                                (TypeError, "show: expected molecules, got Surface", {"show": {"sticks": made}}),
                                (ms.OptionError, "`show`: expected sticks", {"show": {"stick": ms.read(DATA / "1crn.pdb")}}),
-                               (ms.OptionError, "`label`: expected X,Y,Z", {"label": [((1, 2, 3), "")]})):
+                               (ms.OptionError, "`label`: expected SELECTION", {"label": [((1, 2, 3), "")]})):
         with pytest.raises(error, match=said):
             made.picture(tmp_path / "a.png", 80, **given)
     with pytest.raises(ValueError, match="panels: expected a path that ends in .png or .html"):

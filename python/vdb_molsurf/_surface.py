@@ -146,7 +146,9 @@ def _named(surface, panels):
         if not isinstance(one, Surface):
             raise TypeError(f"panels: expected surfaces, got {type(one).__name__}")
     titles = [one.kind for one in others] if names is None else [str(name) for name in names if name != ""]
-    own = surface.kind if names is None else str(names.get("", surface.kind))
+    own = surface.kind if names is None else names.get("", surface.kind)
+    if not isinstance(own, str):
+        raise TypeError(f"panels: expected the name of this surface as that of '', got {type(own).__name__}")
     return own, [(title, one._core) for title, one in zip(titles, others)]
 
 
@@ -342,15 +344,25 @@ class Surface:
 
         panels: further surfaces of a .png or .html, as of picture().
         """
-        if panels is not None and not os.fspath(path).endswith((".png", ".html")):
+        if panels is None:
+            return self._save(path, replace)
+        if not os.fspath(path).endswith((".png", ".html")):
             raise ValueError("panels: expected a path that ends in .png or .html")
-        self._save(path, replace, panels=panels)
+        self._save_picture(path, replace, [], panels, {})
 
-    def _save(self, path, replace, scene="", settings=(), panels=None, show=()):
+    def _save(self, path, replace, scene=""):
         """Writes a file; messages name the keywords of Python."""
+        self._written(self._core.save, path, replace, scene)
+
+    def _save_picture(self, path, replace, settings, panels, show):
+        """Writes a picture or page with what it shows beside the surface."""
         name, others = _named(self, panels)
+        self._written(self._core.save_picture, path, replace, settings, (name, others, _shown(show)))
+
+    @staticmethod
+    def _written(write, path, replace, *how):
         try:
-            self._core.save(os.fspath(path), bool(replace), scene, list(settings), name, others, list(show))
+            write(os.fspath(path), bool(replace), *how)
         except _core.OptionError as error:
             raise type(error)(str(error).replace("`size`", "width")) from None
         except _core.OutputError as error:
@@ -383,10 +395,12 @@ class Surface:
         The keywords are the command line's options of pictures. `view` and `up` are directions (x, y, z), toward the
         eye and upward; `view` may be the path of a .view, too. `turn` is in degrees, `clip` in Å. None: the default.
 
-        label: texts at places, as [((x, y, z), "active site")]; ruler: lines between places, as [((x, y, z), (x, y, z))]; in Å.
-        show: atoms beside the surface, as {"sticks": molecule}, with the words of the command line; bonds are those of dictionaries and distances.
-        panels: further surfaces in the same scale: a list, or a dict by their names, in which "" may have that of this one,
-        as {"": "smooth", "SES": ses}.
+        label: texts at places, as [((x, y, z), "active site")], in Å.
+        ruler: lines between places with their length, as [((x, y, z), (x, y, z))], in Å.
+        show: atoms beside the surface, as {"sticks": molecule}, with the words of the command line. Bonds are those of
+        dictionaries and distances. Panels of the same molecule show them, too.
+        panels: further surfaces in the same scale of length: a list, or a dict by their names, in which "" may have the
+        name of this one, as {"": "smooth", "SES": ses}. Colours of other values have a legend of their own.
         """
         path = os.fspath(path)
         if not path.endswith(".png"):
@@ -397,7 +411,7 @@ class Surface:
         settings = [(name, _word(value)) for name, value in given.items() if value is not None and value is not False]
         settings += [("label", f"{_place('label', place)}={text}") for place, text in label]
         settings += [("ruler", f"{_place('ruler', start)}..{_place('ruler', end)}") for start, end in ruler]
-        self._save(path, replace, settings=settings, panels=panels, show=_shown(show or {}))
+        self._save_picture(path, replace, settings, panels, show or {})
 
 
 class Page:

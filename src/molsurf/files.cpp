@@ -19,6 +19,7 @@
 #include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/surface_kind.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -55,12 +56,20 @@ void showAtoms(const std::vector<std::pair<std::string, const BallSet*>>& show,
     std::vector<BallSet> atoms;
     for (const auto& [word, some] : show) {
         rules.push_back(parseShow(word));
-        if (!some->names || !some->labels || !rules.back().select.empty())
+        if (!some || !some->names || !some->labels || !rules.back().select.empty())
             throw Error(ErrorKind::Usage,
                         "`show`: expected a word and atoms with names, got " + inQuotes(word));
         atoms.push_back(*some);
     }
     showAtoms(rules, std::move(atoms), nullptr, surface, progress, picture);
+}
+
+/// Whether two sets have the same balls, but for their radii.
+bool areInOnePlace(const BallSet& a, const BallSet& b)
+{
+    return std::equal(
+        a.balls.begin(), a.balls.end(), b.balls.begin(), b.balls.end(),
+        [](const Ball& one, const Ball& other) { return one.center == other.center; });
 }
 
 /// The layers of a page.
@@ -71,11 +80,11 @@ std::vector<HtmlLayer> layersOf(const std::vector<ShownSurface>& surfaces,
     std::vector<HtmlLayer> layers;
     for (std::size_t n = 0; n < surfaces.size(); ++n) {
         const ShownSurface& shown = surfaces[n];
-        const std::string about = aboutPage(shown.surface.report.surface.kind, shown.options.voxel);
+        const std::string about =
+            aboutPage(shown.surface->report.surface.kind, shown.options->voxel);
         HtmlPage page = pageOf(drawn[n], title, about, progress);
-        page.name = shown.name;
-        page.inPlace = &shown.atoms == &surfaces[0].atoms;
-        layers.push_back({shown.surface.mesh, std::move(page)});
+        page.inPlace = areInOnePlace(*shown.atoms, *surfaces[0].atoms);
+        layers.push_back({shown.surface->mesh, std::move(page)});
     }
     return layers;
 }
@@ -149,7 +158,7 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
                   const SurfaceOptions& options, const std::string& path,
                   const std::vector<std::pair<std::string, std::string>>& settings, bool replace)
 {
-    writePicture({{atoms, surface, options}}, path, settings, replace);
+    writePicture({{&atoms, &surface, &options}}, path, settings, replace);
 }
 
 void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& path,
@@ -163,21 +172,26 @@ void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& 
     if (surfaces.empty()) throw Error(ErrorKind::Usage, path + ": expected a surface, got none");
     std::vector<WholeBalls> wholes;
     for (const ShownSurface& shown : surfaces) {
-        checkArrays(shown.surface.mesh);
-        wholes.push_back(ballsOfWhole(shown.atoms));
+        checkArrays(shown.surface->mesh);
+        wholes.push_back(ballsOfWhole(*shown.atoms));
     }
     std::vector<DrawnSurface> drawn;
     for (std::size_t n = 0; n < surfaces.size(); ++n) {
-        const auto& [atoms, surface, options, title, show] = surfaces[n];
+        const ShownSurface& shown = surfaces[n];
+        const BallSet& atoms = *shown.atoms;
+        const SurfaceOptions& options = *shown.options;
         const bool repeats = !atoms.placement.isWhole();
         drawn.push_back(
-            {atoms, surface.mesh, options, look.picture, repeats ? &wholes[n] : nullptr});
-        drawn[n].name = title;
+            {atoms, shown.surface->mesh, options, look.picture, repeats ? &wholes[n] : nullptr});
+        drawn[n].name = shown.name;
+        const bool inPlace = areInOnePlace(atoms, *surfaces[0].atoms);
+        if (!inPlace) drawn[n].look.notes.clear();
         if (isPage) continue;
-        showAtoms(show, atoms, nobody, drawn[n].look);
+        const bool likeFirst = inPlace && shown.show.empty();
+        showAtoms(likeFirst ? surfaces[0].show : shown.show, atoms, nobody, drawn[n].look);
         drawn[n].borders =
             bordersOf(options.color, repeats ? repeated(atoms, options.color, wholes[n]) : atoms,
-                      asMeshed(wholes[n].balls, options), surface.mesh, nobody);
+                      asMeshed(wholes[n].balls, options), shown.surface->mesh, nobody);
     }
     OutputFile file(path, replace);
     isPage ? writeHtml(layersOf(surfaces, drawn, name.stem().string(), nobody), file)

@@ -66,20 +66,22 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
                   const std::vector<std::pair<std::string, std::string>>& settings = {},
                   bool replace = true);
 
-/// A surface in a picture or page, with what it was made of and with.
+/// A surface in a picture or page, with what it was made of and with. None is null.
 struct ShownSurface {
-    const BallSet& atoms;
-    const MolecularSurface& surface;
-    const SurfaceOptions& options;
+    const BallSet* atoms;
+    const MolecularSurface* surface;
+    const SurfaceOptions* options;
     std::string name{}; ///< below its panel, or in the menu of a page
-    /// Atoms with names that a picture shows beside it, and how: a word as of --show.
+    /// Atoms with names that a picture shows beside it, and how: a word as of --show. Surfaces of
+    /// atoms in the same places that have none show those of the first.
     std::vector<std::pair<std::string, const BallSet*>> show{};
 };
 
 /// Draws surfaces side by side, from one eye, in one scale and with one legend, or writes a page
 /// that shows them side by side or one at a time. The first one decides the view.
-/// @param[in] surfaces  at least one; those of the same atoms lie in one place on a page
-/// @param[in] settings  as above
+/// @param[in] surfaces  at least one; those of atoms in the same places lie in one place on a page,
+///                      and the labels and rulers of a picture are theirs alone
+/// @param[in] settings  as above; pages take the plain colour and the opacity
 /// @throws as above
 void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& path,
                   const std::vector<std::pair<std::string, std::string>>& settings = {},

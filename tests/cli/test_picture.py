@@ -280,10 +280,10 @@ class Pictures(ToolTest):
         _, far = self.picture(*words, "--label", "0,90,0=far")
         self.assertGreater(len(far), 2 * height, "what lies outside of the surface is seen, too")
         for option, value, status, says in (("--label", "=x", 2, "expected SELECTION"), ("--label", "A/1=", 2, "SELECTION=TEXT"),
-                                            ("--ruler", "A/1", 2, "SELECTION..SELECTION"), ("--ruler", "A/1..", 2, 'got "A/1.."'),
+                                            ("--ruler", "A/1", 2, "WHERE..WHERE"), ("--ruler", "A/1..", 2, 'got "A/1.."'),
                                             ("--ruler", "A/1..A/1", 1, "expected two places, got one"),
                                             ("--ruler", "A/1..-10,0,0", 1, "expected two places, got one"),
-                                            ("--label", "-10,0,0", 1, "expected X,Y,Z=TEXT, got no text"),
+                                            ("--label", "-10,0,0", 2, "X,Y,Z=TEXT"), ("--label", "-10,0,0=", 2, "X,Y,Z=TEXT"),
                                             ("--label", "nan,0,0=x", 1, "nan,0,0"), ("--label", "1e7,0,0=x", 2, "1e7,0,0"),
                                             ("--label", "A/9", 1, "matches no atom")):
             self.check(status, *words, option, value, "-o", "b.png", says=says)
@@ -302,6 +302,9 @@ class Pictures(ToolTest):
             pictures.append([(self.folder / f"a.000{n}.png").read_bytes() for n in (1, 2)])
         for n in (0, 1):
             self.assertNotEqual(pictures[0][n], pictures[1][n])
+        self.check(0, *words, "--label", "0,40,0=above")
+        width, height = (int.from_bytes((self.folder / "a.0001.png").read_bytes()[at:at + 4], "big") for at in (16, 20))
+        self.assertGreater(height, 2 * width, "the frame has the places of labels")
 
     def test_membranes_are_upright(self):
         """The dummies of OPM: from the plane of N to that of O is up, unless a view is asked for."""
@@ -354,7 +357,7 @@ class Pictures(ToolTest):
     def test_centred_is_the_same_picture(self):
         """Colours, the cut and shown atoms move with the mesh."""
         words = [DATA / "1a8o.cif.gz", "--assembly", "1", "--voxel", "1", "--size", "200", "--show", "A//CA=spheres",
-                 "--clip", "2", "--color"]
+                 "--ruler", "A/155/CA..A/200/CA", "--clip", "2", "--color"]
         for color in ("chain", "hydrophobicity"):
             there, centred = self.picture(*words, color), self.picture(*words, color, "--center")
             self.assertEqual(len(there[1]), len(centred[1]))

@@ -601,12 +601,12 @@ Option panelOption()
 
 /// An option that adds to the notes of pictures.
 Option noteOption(const char* name, const char* argument, const char* help,
-                  NoteText (*parse)(const std::string& text, const std::string& what))
+                  NoteText (*parse)(const std::string& text))
 {
     Option note{name, 0, argument, help, "", Build | Batch};
     note.repeats = true;
     note.set = [=](Call& call, const Values& values) {
-        for (const std::string& value : values) call.notes.push_back(parse(value, "SELECTION"));
+        for (const std::string& value : values) call.notes.push_back(parse(value));
     };
     return shownIn(Pixels, note);
 }
@@ -614,9 +614,9 @@ Option noteOption(const char* name, const char* argument, const char* help,
 Option labelOption()
 {
     return noteOption("label", "SEL=TEXT",
-                      "a text at the middle of atoms, such as \"A/57=active site\",\n"
-                      "or at a place X,Y,Z; without one chain, name and number of\n"
-                      "the residue; repeats",
+                      "a text at the middle of atoms, such as \"A/57=active site\";\n"
+                      "X,Y,Z=TEXT at a place in Å; SEL alone: chain, name and\n"
+                      "number of its residue; repeats",
                       labelText);
 }
 

@@ -83,9 +83,11 @@ public:
         for (std::size_t k = 0; k < count; ++k) directions_.push_back(spiral(k, count));
     }
 
+    /// Adds the part of the probe at a corner that faces the triangle of its three balls, less what
+    /// lies in another probe.
     void add(const Corner& corner, ExcludedPoints& out) const
     {
-        std::array<Vec3d, 3> to, planes;
+        std::array<Vec3d, 3> to, planes; // to the balls; normals of the sides, inward
         for (std::size_t k = 0; k < 3; ++k)
             to[k] = boundary_.balls[std::size_t(corner.balls[k])].centre() - corner.position;
         for (std::size_t k = 0; k < 3; ++k) {

@@ -53,11 +53,12 @@ std::uint64_t mixed(std::uint64_t x)
     return x ^ x >> 31;
 }
 
-/// Moves a place by what looks like chance.
+/// Moves a place by up to mostMoved along each axis, by a hash of place and radius: a ball moves
+/// the same in every list. Another salt gives other moves, for a second try.
 Place moved(Place place, double radius, std::uint64_t salt)
 {
     constexpr std::int64_t most = std::int64_t(mostMoved / placeUnit);
-    static_assert((most & (most - 1)) == 0);
+    static_assert((most & (most - 1)) == 0); // a power of two: 2 most - 1 is a mask of bits
     std::uint64_t bits;
     std::memcpy(&bits, &radius, sizeof bits);
     std::uint64_t hash = mixed(salt ^ mixed(bits));

@@ -18,7 +18,7 @@ namespace molsurf
 /// Unit of the places [Å]: balls within 2000 Å of each other have offsets that a double holds.
 constexpr double placeUnit = 0x1p-42;
 
-/// The centre of a ball is moved by less than this along each axis [Å].
+/// The centre of a ball is moved by at most this along each axis [Å].
 constexpr double mostMoved = 0x1p-31;
 
 /// Every radius becomes smaller by this [Å]. It is more than two centres can approach each other by

@@ -273,10 +273,11 @@ std::shared_ptr<const ColorOwners> bordersOf(ColorBy color, const BallSet& atoms
         balls, atoms.colors.empty() ? ballColors(atoms, color, progress) : atoms.colors));
 }
 
-Mesh withCrispBorders(const Mesh& mesh, const ColorOwners& of, double crease,
+Mesh withCrispBorders(const Mesh& mesh, const ColorOwners& colorOwners, double crease,
                       const std::string& stepwise, const Progress& progress)
 {
-    const auto& [colors, owners] = of;
+    const std::vector<Color>& colors = colorOwners.colors;
+    const PowerOwners& owners = colorOwners.owners;
     const std::vector<std::int32_t> owner =
         colors.size() > 1 ? owners.ownersOf(mesh.positions, progress)
                           : std::vector<std::int32_t>(mesh.positions.size(), 0);
@@ -284,7 +285,7 @@ Mesh withCrispBorders(const Mesh& mesh, const ColorOwners& of, double crease,
     Builder out(mesh, owner, colors, stepwise);
     std::vector<CrossedEdge> edges = out.crossedEdges();
     constexpr std::size_t chunk = 256;
-    parallelFor((edges.size() + chunk - 1) / chunk, progress, [&, &owners = owners](std::size_t c) {
+    parallelFor((edges.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
         Cutter cutter(mesh, owners);
         for (std::size_t e = c * chunk; e < std::min(edges.size(), (c + 1) * chunk); ++e) {
             const auto [a, b] = edges[e].ends;

@@ -46,9 +46,9 @@ std::shared_ptr<const ColorOwners> bordersOf(ColorBy color, const BallSet& atoms
 ///
 /// @param[in] mesh       with normals and without parts, near the balls (within 30 Å)
 /// @param[in] owners     of the balls that it is the surface of
-/// @param[in] crease     how far from the circle of two spheres the mesh cuts off the crease there,
-///                       at most [Å]; 0: it is not that of their union
-/// @param[in] stepwise   name of a scalar that belongs to a side, as labels do; may be none's
+/// @param[in] crease     of a union of balls, how far its mesh may lie off the circle where two
+///                       spheres meet [Å]; 0 for other surfaces
+/// @param[in] stepwise   name of a scalar that belongs to a side, as labels do; empty: none
 Mesh withCrispBorders(const Mesh& mesh, const ColorOwners& owners, double crease,
                       const std::string& stepwise, const Progress& progress);
 

@@ -87,8 +87,9 @@ public:
     /// psi on the voxels within `steps` voxels (see dilated()) of those next to psi = 0, with the
     /// reach of the options.
     /// @param[in] box       of whole leaves: no others are looked at
-    /// @param[in] bumpsFor  none, or makes bumps, which psi has from there on, of psi on the leaves
-    ///                      whose sign no bounds decide
+    /// @param[in] bumpsFor  none, or a function that receives psi on the leaves whose sign no
+    /// bounds
+    ///                      decide and returns bumps; psi has them from then on
     /// @return no leaves if psi is negative at all voxels
     SparseField band(int steps, const Progress& progress,
                      const openvdb::CoordBBox& box = openvdb::CoordBBox::inf(),

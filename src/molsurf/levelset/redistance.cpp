@@ -3,6 +3,7 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/levelset/leaf_distances.h"
+#include "molsurf/levelset/seed_kinks.h"
 
 #include <algorithm>
 #include <cstring>

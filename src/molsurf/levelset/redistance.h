@@ -5,7 +5,7 @@
 /// The signed distance to the zero set of a level set, deep into the molecule, by closest points.
 
 #include "molsurf/grid/distance_band.h"
-#include "molsurf/levelset/seed_kinks.h"
+#include "molsurf/levelset/nearest_seeds.h"
 #include "molsurf/progress.h"
 
 namespace molsurf
@@ -34,7 +34,7 @@ DistanceBand redistance(SparseField phi, const BandWidths& band, double level,
                         const Progress& progress,
                         const openvdb::CoordBBox& box = openvdb::CoordBBox::inf());
 
-/// Steps 3 and 4 of it, for whom the points of step 2 serve otherwise, too.
+/// Steps 3 and 4 of redistance(), for callers that use the points of step 2 themselves.
 /// @param[in] near   by nearestSeeds() with the same band and level
 /// @param[in] kinks  of the distance, by kinksOf()
 DistanceBand distancesBy(NearestSeeds near, LeafTable kinks, const BandWidths& band, double level,

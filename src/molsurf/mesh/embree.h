@@ -17,7 +17,7 @@
 namespace molsurf
 {
 
-/// Sets ray k of some.
+/// Sets ray k of a packet of 4 or 8; it meets all geometry (mask).
 /// @param[in] way     unit
 /// @param[in] length  how far it goes [Å]; may be infinite
 template<typename Rays>

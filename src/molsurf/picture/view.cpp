@@ -52,8 +52,7 @@ void addSpan(const Mesh& mesh, const std::vector<MeshInstance>& instances, int d
     }
 }
 
-/// Points that span what is shown: the vertices, or of copies the outermost ones, atoms, and the
-/// places of notes.
+/// Points that span what is shown: the vertices, or of copies the outermost ones, and atoms.
 class Span
 {
 public:
@@ -61,10 +60,6 @@ public:
         : vertices_(options.instances.empty() ? &mesh.positions : nullptr)
     {
         if (!vertices_) addSpan(mesh, options.instances, manyDirections, others_);
-        for (const PictureNote& note : options.notes) {
-            others_.push_back(note.from);
-            if (note.to) others_.push_back(*note.to);
-        }
         const AtomModel* model = options.model.get();
         if (!model) return;
         const int directions =
@@ -208,13 +203,27 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
         low = openvdb::math::minComponent(low, seen);
         high = openvdb::math::maxComponent(high, seen);
     });
+    std::vector<Vec3d> places; // of notes, which are in the frame but move no cut
+    for (const PictureNote& note : options.notes) {
+        places.push_back(note.from);
+        if (note.to) places.push_back(*note.to);
+    }
+    for (const Vec3d& x : places) {
+        const Vec3d seen(x.dot(view.right), x.dot(view.up), 0.0);
+        for (int a = 0; a < 2; ++a) {
+            low[a] = std::min(low[a], seen[a]);
+            high[a] = std::max(high[a], seen[a]);
+        }
+    }
     const Vec3d mid = 0.5 * (low + high), extent = high - low;
     view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
     if (options.turn != 0.0 || options.turnable) {
-        span.forEach([&](const Vec3d& p) {
+        const auto turnWith = [&](const Vec3d& p) {
             const Vec3d d = p - view.center;
             reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
-        });
+        };
+        span.forEach(turnWith);
+        for (const Vec3d& x : places) turnWith(x);
     }
     const double across = std::max(extent[0], 2.0 * reach), upward = extent[1];
     PictureFrame frame = frameOf(view.center, across, upward);

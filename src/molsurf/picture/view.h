@@ -13,7 +13,7 @@ namespace molsurf
 struct View {
     openvdb::Vec3d center, right, up, toEye;
     double pixel = 0.0;        ///< edge [Å]
-    double low = 0.0, far = 0; ///< of the mesh along toEye, from the center [Å]
+    double low = 0.0, far = 0; ///< of the mesh and atoms along toEye, from the center [Å]
     int width = 0, height = 0; ///< [pixel]
 
     /// A point of the plane through the center, from the upper left corner [pixel].
@@ -23,7 +23,7 @@ struct View {
     }
 };
 
-/// The frame that shows all of a mesh, or of its copies.
+/// The frame that shows all of a mesh, or of its copies, with atoms and the places of notes.
 View chooseView(const Mesh& mesh, const DrawOptions& options);
 
 /// Keeps one view for pictures of things that move: directions and size are in the options then.

@@ -174,11 +174,14 @@ private:
 
     void readPlaces()
     {
+        constexpr std::size_t kindAt = 156, sizeAt = 124, sizeLength = 12;
         std::string name; // by a note before the member
         std::int64_t size = -1, at = 0;
         for (Header header; readHeader(at, header);) {
-            const char kind = header[156];
-            std::int64_t length = numberAt(header, 124, 12);
+            // L: a long name of GNU, K: a long link, x: attributes of the next member, g: of all;
+            // 0, none, 7: a file
+            const char kind = header[kindAt];
+            std::int64_t length = numberAt(header, sizeAt, sizeLength);
             if (kind == 'L') {
                 name = note(length).c_str();
             } else if (kind == 'x') {

@@ -121,15 +121,15 @@ double farthest(const openvdb::CoordBBox& box, const Pose& pose, double voxel)
 }
 
 /// Refuses a grid with places that coordinates of 32 bits do not hold, in its own frame or outside.
-/// @return what these leave uncertain of a place [Å]
-double checkPlace(const FloatGrid& grid, const Pose& pose)
+/// @return how far a place is rounded by float coordinates [Å]
+double roundingAt(const FloatGrid& grid, const Pose& pose)
 {
     constexpr double far = 1e6; // [Å], as of atoms
     openvdb::CoordBBox box;
     grid.tree().evalLeafBoundingBox(box);
     const double voxel = grid.voxelSize()[0];
     const double local = farthest(box, Pose(), voxel), placed = farthest(box, pose, voxel);
-    constexpr int last = 1 << 26; // [voxel]
+    constexpr int last = 1 << 26; // [voxel]: sums of a few coordinates stay within 32 bits
     if (!openvdb::CoordBBox(Coord(-last), Coord(last)).isInside(box))
         refuse(gridName(grid) + ": expected voxels within 2^26 of the origin");
     if (!(std::max(local, placed) <= far)) {
@@ -181,7 +181,7 @@ std::optional<Spline> storedSpline(const openvdb::GridPtrVec& grids, const Float
     const FloatGrid::Ptr coefficients = findGrid<FloatGrid>(grids, "spline");
     if (!coefficients || coefficients->empty()) return std::nullopt;
     const Pose other = poseOf(*coefficients);
-    checkPlace(*coefficients, other);
+    roundingAt(*coefficients, other);
     checkValues(*coefficients, coefficients->cbeginValueAll());
     if ((other.shift - pose.shift).length() > 1e-3 * levelSet.voxelSize()[0] ||
         !other.turn.eq(pose.turn, 1e-5))
@@ -257,7 +257,7 @@ Operand storedOperand(const openvdb::GridPtrVec& grids, const Progress& progress
         refuse(gridName(*stored) + ": expected a narrow band, got more voxels in tiles than in it");
     stored->tree().voxelizeActiveTiles();
     if (stored->tree().leafCount() == 0) refuse(gridName(*stored) + ": expected voxels, got none");
-    const double rounding = checkPlace(*stored, pose);
+    const double rounding = roundingAt(*stored, pose);
     checkValues(*stored, stored->cbeginValueOn());
 
     Surface& surface = operand.surface;

@@ -106,6 +106,18 @@ void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
     picture.model = std::make_shared<AtomModel>(atomModel(shown, progress));
 }
 
+namespace
+{
+
+/// Whether colours mean the same values.
+bool haveOneScale(const Legend& a, const Legend& b)
+{
+    if (!a.scale || !b.scale) return !a.scale && !b.scale;
+    return a.scale->low == b.scale->low && a.scale->high == b.scale->high;
+}
+
+} // namespace
+
 std::vector<Legend> legendsOf(const std::vector<DrawnSurface>& surfaces, const Progress& progress)
 {
     std::vector<Legend> all;
@@ -113,14 +125,19 @@ std::vector<Legend> legendsOf(const std::vector<DrawnSurface>& surfaces, const P
         const auto own =
             surface.legend ? surface.legend
                            : legendOf(surface.options.color, surface.atoms, surface.mesh, progress);
-        for (const Legend& legend : legendsOf(own, surface.look.model.get())) {
+        for (Legend& legend : legendsOf(own, surface.look.model.get())) {
             const auto known = std::find_if(all.begin(), all.end(), [&](const Legend& other) {
+                return other.title == legend.title && haveOneScale(other, legend);
+            });
+            if (known != all.end()) {
+                for (const LegendEntry& entry : legend.entries) addEntry(entry, known->entries);
+                continue;
+            }
+            const bool isOther = std::any_of(all.begin(), all.end(), [&](const Legend& other) {
                 return other.title == legend.title;
             });
-            if (known == all.end())
-                all.push_back(legend);
-            else
-                for (const LegendEntry& entry : legend.entries) addEntry(entry, known->entries);
+            if (isOther && !surface.name.empty()) legend.title += ", " + surface.name;
+            all.push_back(std::move(legend));
         }
     }
     return all;
@@ -199,6 +216,8 @@ HtmlPage pageOf(const DrawnSurface& surface, const std::string& title, const std
     page.axes = viewAxes(surface.mesh, view);
     page.instances = view.instances;
     page.copiesFirst = surface.colorsCopies;
+    page.name = surface.name;
+    page.opacity = surface.look.opacity;
     const std::vector<Ball> balls =
         surface.whole ? surface.whole->balls : placedBalls(atoms, surface.origin);
     if (atoms.names) nameAtoms(*atoms.names, balls, surface.mesh, progress, page);

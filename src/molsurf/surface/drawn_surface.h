@@ -22,7 +22,7 @@
 namespace molsurf
 {
 
-/// A surface and how it is looked at.
+/// A surface and how it is looked at. What it refers to lives longer.
 struct DrawnSurface {
     const BallSet& atoms;
     const Mesh& mesh;
@@ -62,7 +62,8 @@ void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
                const std::shared_ptr<const FileBonds>& bonds, const BallSet& surface,
                const Progress& progress, DrawOptions& picture);
 
-/// The legends of some surfaces in one picture, each name once.
+/// The legends of some surfaces in one picture, each name once; those of another scale have the
+/// name of their surface, too.
 std::vector<Legend> legendsOf(const std::vector<DrawnSurface>& surfaces, const Progress& progress);
 
 /// Draws surfaces side by side, all in one scale, with their legends and a scale bar if the
@@ -70,7 +71,7 @@ std::vector<Legend> legendsOf(const std::vector<DrawnSurface>& surfaces, const P
 Picture drawSurfaces(const std::vector<DrawnSurface>& surfaces, const PictureSettings& settings,
                      const Progress& progress);
 
-/// Its page, without layers and coarser meshes.
+/// Its page, without layers and coarser meshes; it refers to the names of the atoms.
 /// @param[in] about  what the page shows, a line
 HtmlPage pageOf(const DrawnSurface& surface, const std::string& title, const std::string& about,
                 const Progress& progress);

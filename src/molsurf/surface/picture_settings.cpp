@@ -149,44 +149,50 @@ PictureSetting legendSetting()
 
 /// A note between places in space.
 PictureSetting noteSetting(const char* name, const char* value, const char* text,
-                           NoteText (*parse)(const std::string& text, const std::string& what))
+                           NoteText (*parse)(const std::string& text))
 {
     return {name, value, text, "", {}, [=](PictureSettings& to, const Values& values) {
                 for (const std::string& one : values) {
-                    const NoteText note = parse(one, "X,Y,Z");
+                    const NoteText note = parse(one);
                     const auto from = placeIn(note.places.front());
                     const auto end = placeIn(note.places.back());
-                    const bool isRuler = note.places.size() > 1;
-                    if (!from || !end || (isRuler ? *from == *end : note.text.empty()))
-                        wrongValue(name, value, one);
+                    if (!from || !end)
+                        wrongValue(name, std::string(value) + " within 1e6 Å of the origin", one);
+                    if (note.places.size() > 1 && *from == *end)
+                        wrongValue(name, "two places", one);
                     to.picture.notes.push_back({*from, {}, note.text});
-                    if (isRuler) to.picture.notes.back().to = *end;
+                    if (note.places.size() > 1) to.picture.notes.back().to = *end;
                 }
             }};
 }
 
 } // namespace
 
-NoteText labelText(const std::string& text, const std::string& what)
+NoteText labelText(const std::string& text)
 {
-    const std::size_t equals = text.rfind('=');
+    // Selections may have an =, and so may texts.
+    const std::size_t first = text.find('='), last = text.rfind('=');
+    const bool ofPlace = bool(placeIn(std::string(trimmed(text.substr(0, first)))));
+    const std::size_t equals = ofPlace ? first : last;
     const bool named = equals != std::string::npos;
     NoteText note{{std::string(trimmed(text.substr(0, equals)))}, ""};
     if (named) note.text = std::string(trimmed(text.substr(equals + 1)));
-    if (note.places[0].empty() || (named && note.text.empty()))
+    if (note.places[0].empty() || (note.text.empty() && (named || ofPlace)))
         throw Error(ErrorKind::Usage,
-                    "`label`: expected " + what + " or " + what + "=TEXT, got " + inQuotes(text));
+                    "`label`: expected SELECTION, SELECTION=TEXT or X,Y,Z=TEXT, got " +
+                        inQuotes(text));
     return note;
 }
 
-NoteText rulerText(const std::string& text, const std::string& what)
+NoteText rulerText(const std::string& text)
 {
     const std::size_t dots = text.find("..");
     const std::string from(trimmed(text.substr(0, dots)));
     const std::string to(dots == std::string::npos ? "" : trimmed(text.substr(dots + 2)));
     if (from.empty() || to.empty())
-        throw Error(ErrorKind::Usage,
-                    "`ruler`: expected " + what + ".." + what + ", got " + inQuotes(text));
+        throw Error(ErrorKind::Usage, "`ruler`: expected WHERE..WHERE, each a selection or a place "
+                                      "X,Y,Z, got " +
+                                          inQuotes(text));
     return {{from, to}, ""};
 }
 

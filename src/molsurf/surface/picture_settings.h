@@ -40,7 +40,7 @@ struct PictureSetting {
     std::string text;  ///< of help, with names of options in backticks
     std::string preset;
     std::vector<std::string> words; ///< that it takes; empty: others
-    /// @param[in] values  the last one counts
+    /// @param[in] values  the last one counts; of labels and rulers all are added
     /// @throws Error(ErrorKind::Usage) if it is wrong
     std::function<void(PictureSettings& to, const std::vector<std::string>& values)> set;
 };
@@ -58,15 +58,16 @@ std::optional<openvdb::Vec3d> directionOf(const std::string& text);
 /// A place X,Y,Z within 1e6 Å of the origin; none: the text is no such.
 std::optional<openvdb::Vec3d> placeIn(const std::string& text);
 
-/// The parts of "WHERE=TEXT", and of "WHERE..WHERE": one place or two, and the text of a label.
+/// The parts of "WHERE=TEXT", and of "WHERE..WHERE": one or two, each a place X,Y,Z or a selection,
+/// and the text of a label.
 struct NoteText {
     std::vector<std::string> places;
     std::string text; ///< "": none
 };
 
-/// @throws Error(ErrorKind::Usage) if the text is none; `what` says what WHERE may be
-NoteText labelText(const std::string& text, const std::string& what);
-NoteText rulerText(const std::string& text, const std::string& what);
+/// @throws Error(ErrorKind::Usage) if the text is none, or if it labels a place with nothing
+NoteText labelText(const std::string& text);
+NoteText rulerText(const std::string& text);
 
 /// Looks from where a word says: auto, a direction or a file.
 /// @return whether it is one of these

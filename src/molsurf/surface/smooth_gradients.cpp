@@ -186,7 +186,7 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
         rule->countsClosed = false;
         sum.band(0, progress, openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
             GapReport unused;
-            return decideGaps(sum, psi, *rule, progress, unused);
+            return bumpsOfGaps(sum, psi, *rule, progress, unused);
         });
     }
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, atoms.decays);

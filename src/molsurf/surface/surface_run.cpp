@@ -70,7 +70,7 @@ void SurfaceRun::density()
     if (auto rule = gapRuleOf(options_)) {
         rule->countsClosed = atoms_.decays.empty();
         decided = [this, rule](const SparseField& psi) {
-            return decideGaps(*sum_, psi, *rule, progress_, gaps_.emplace());
+            return bumpsOfGaps(*sum_, psi, *rule, progress_, gaps_.emplace());
         };
     }
     SparseField psi =
@@ -193,7 +193,7 @@ DistanceBand SurfaceRun::distanceToBalls()
                            scope_.region.grown(scope_.splineHalo));
 }
 
-/// The carrier of the interface, and what is only needed for it goes.
+/// The carrier of the interface; frees what later stages do not need.
 SparseField SurfaceRun::takeCarrier()
 {
     const openvdb::CoordBBox near = scope_.region.grown(scope_.distanceHalo);
@@ -211,8 +211,9 @@ SparseField SurfaceRun::takeCarrier()
     return clipped(std::move(carrier), near, progress_);
 }
 
-/// The walls of the surface, decided; thin places are seen by the closest points of voxels.
-std::vector<Decision> SurfaceRun::wallsBy(const NearestSeeds& near, const SeedKinks& kinks)
+/// Decides the walls of the surface, at the thin places that the closest points of voxels show, and
+/// reports them. Nothing needs the sum after that.
+std::vector<Decision> SurfaceRun::decideWallsOf(const NearestSeeds& near, const SeedKinks& kinks)
 {
     if (!decidesWalls(options_)) return {};
     const double offset = offsetOf(options_);
@@ -233,7 +234,7 @@ DistanceBand SurfaceRun::distanceToInterface()
     NearestSeeds near = nearestSeeds(takeCarrier(), widths, -offset,
                                      scope_.region.grown(scope_.ridgeHalo), progress_);
     SeedKinks kinks = kinksOf(near, progress_);
-    const std::vector<Decision> walls = wallsBy(near, kinks);
+    const std::vector<Decision> walls = decideWallsOf(near, kinks);
     DistanceBand S =
         distancesBy(std::move(near), std::move(kinks.kinks), widths, -offset, progress_);
     moveInward(S.phi, offset, progress_);

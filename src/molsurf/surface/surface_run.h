@@ -177,7 +177,7 @@ private:
     SparseField takeCarrier();
     DistanceBand distanceToBalls();
     DistanceBand distanceToInterface();
-    std::vector<Decision> wallsBy(const NearestSeeds& near, const SeedKinks& kinks);
+    std::vector<Decision> decideWallsOf(const NearestSeeds& near, const SeedKinks& kinks);
 
     const BallSet& atoms_;
     const SurfaceOptions options_;

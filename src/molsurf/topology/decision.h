@@ -2,9 +2,10 @@
 #pragma once
 
 /// @file
-/// What is decided of the topology of a smooth surface. Where it turns by a little, a grid, its
-/// place and the steps of a flow would decide; instead a property of the molecule decides, and the
-/// level set is changed there such that voxels hold that. docs/math.md, sections 2 and 7.
+/// What is decided of the topology of a smooth surface. Where a small change would open or close a
+/// gap or a wall, a grid, its place and the steps of a flow would decide. Instead a property of the
+/// molecule decides, and the level set is changed there such that voxels hold the decision.
+/// docs/math.md, sections 2 and 7.
 
 #include "molsurf/report.h"
 
@@ -22,7 +23,7 @@ struct Decision {
     /// Of a gap as a value of psi; of a wall how much deeper its middle lies than that of the
     /// thinnest that stays [Å].
     double beyond;
-    bool byItself = false; ///< is closed without being held: a gap that atoms fill
+    bool byItself = false; ///< of a gap: psi >= 0, atoms fill it, and tension does not close it
 
     bool closed() const { return beyond > 0.0; }
 };

@@ -29,12 +29,14 @@ double rounded(double x)
 Bump bumpAt(const Gap& gap, bool solid, double reach, double rate,
             const std::function<double(const Vec3d&)>& psi)
 {
-    constexpr double least = 0.15, slowest = 0.3;
+    constexpr double least = 0.15;  // psi at the gap
+    constexpr double slowest = 0.3; // [1/Å^2]
     const double side = solid ? 1.0 : -1.0, here = side * psi(gap.place);
-    // A pocket that closes is to be covered as far as it reaches.
+    // A pocket that closes is to be covered as far as it reaches: psi is 0 at x^2 = -2 here / rise,
+    // where the bump falls to 1/e.
     for (int i = 0; i < 3 && here < 0.0; ++i) {
         const double rise = side * gap.curvatures[i];
-        if (rise > 0.0) rate = std::clamp(-0.5 * rise / here, slowest, rate);
+        if (rise > 0.0) rate = std::clamp(-0.5 * rise / here, std::min(slowest, rate), rate);
     }
     double amplitude = least - here;
     const double thin = solid ? -gap.curvatures[0] : gap.curvatures[2];

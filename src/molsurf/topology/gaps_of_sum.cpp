@@ -5,14 +5,15 @@
 #include "molsurf/topology/critical_points.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace molsurf
 {
 
 using openvdb::Vec3d;
 
-Bumps decideGaps(const GaussianSum& sum, const SparseField& psi, const GapRule& rule,
-                 const Progress& progress, GapReport& report)
+Bumps bumpsOfGaps(const GaussianSum& sum, const SparseField& psi, const GapRule& rule,
+                  const Progress& progress, GapReport& report)
 {
     const PsiJetAt jet = [&](const Vec3d& x) { return sum.jet(x); };
     const auto covered = [&](const Vec3d& x, double more) { return sum.isCovered(x, more); };

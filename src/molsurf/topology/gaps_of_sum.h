@@ -10,12 +10,12 @@
 namespace molsurf
 {
 
-/// Decides the gaps of a sum.
+/// Finds the gaps of a sum, decides them by decideGaps(), and makes the bumps of holdGaps().
 /// @param[in]  psi     of the sum where bounds do not decide its sign, as GaussianSum::band() has
 /// it
 /// @param[out] report  how they were decided, and what the field closes if the rule says so
-/// @return what holds the decisions, for GaussianSum::band()
-Bumps decideGaps(const GaussianSum& sum, const SparseField& psi, const GapRule& rule,
-                 const Progress& progress, GapReport& report);
+/// @return for GaussianSum::band()
+Bumps bumpsOfGaps(const GaussianSum& sum, const SparseField& psi, const GapRule& rule,
+                  const Progress& progress, GapReport& report);
 
 } // namespace molsurf

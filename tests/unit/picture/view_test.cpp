@@ -56,5 +56,29 @@ TEST(View, TurnsOnce)
     EXPECT_NEAR(options.up[1], 1.0, 1e-9);
 }
 
+/// Labels are in the frame, and move neither the cut nor what is clipped.
+TEST(View, ShowsThePlacesOfNotes)
+{
+    Mesh mesh;
+    test::addBall(mesh, {3.0f, 4.0f, 0.0f}, 2.0f, {1, 2, 3});
+    DrawOptions options;
+    lookFrom({0.0, 0.0, 1.0}, options);
+    const View plain = chooseView(mesh, options);
+    options.notes = {{openvdb::Vec3d(3.0, 4.0, 50.0), {}, "in front"}};
+    const View front = chooseView(mesh, options);
+    EXPECT_EQ(front.center, plain.center);
+    EXPECT_EQ(front.low, plain.low);
+    EXPECT_EQ(front.far, plain.far);
+    EXPECT_EQ(front.pixel, plain.pixel);
+    options.notes = {{openvdb::Vec3d(-7.0, 4.0, 0.0), openvdb::Vec3d(3.0, 34.0, 0.0), ""}};
+    const View aside = chooseView(mesh, options);
+    EXPECT_NEAR(aside.width * aside.pixel, 1.04 * 12.0, 0.1);  // from -7 to 5
+    EXPECT_NEAR(aside.height * aside.pixel, 1.04 * 32.0, 0.1); // from 2 to 34
+    EXPECT_EQ(aside.low, plain.low);
+    options.turn = 90.0;
+    const View turned = chooseView(mesh, options);
+    EXPECT_GT(turned.width * turned.pixel, 12.0); // for every turn
+}
+
 } // namespace
 } // namespace molsurf

@@ -2,6 +2,7 @@
 #include "molsurf/files.h"
 
 #include "molsurf/surface.h"
+#include "molsurf/surface/drawn_surface.h"
 #include "support/folder.h"
 #include "unit/structure/temp_file.h"
 
@@ -84,12 +85,35 @@ TEST(Files, DrawASurfaceWithItsLegend)
     EXPECT_HAS(errorWith("sise", "15"), "no option of pictures is named");
 }
 
+/// Legends of one scale are one, and others have the name of their surface.
+TEST(DrawnSurface, HasALegendForEachScale)
+{
+    Colored made;
+    made.options.color = ColorBy::MeanCurvature;
+    made.surface = makeSurface(made.atoms, made.options);
+    Colored finer = made;
+    finer.options.kind = SurfaceKind::VanDerWaals;
+    finer.surface = makeSurface(finer.atoms, finer.options);
+    const auto drawn = [](const Colored& of, const char* name) {
+        DrawnSurface out{of.atoms, of.surface.mesh, of.options, DrawOptions()};
+        out.name = name;
+        return out;
+    };
+    const auto legends = legendsOf({drawn(made, "SES"), drawn(made, "again")}, Progress());
+    ASSERT_EQ(legends.size(), 1u);
+    const auto both = legendsOf({drawn(made, "SES"), drawn(finer, "VDW")}, Progress());
+    ASSERT_EQ(both.size(), 2u);
+    EXPECT_EQ(both[0].title, legends[0].title);
+    EXPECT_EQ(both[1].title, legends[0].title + ", VDW");
+    EXPECT_NE(both[0].scale->high, both[1].scale->high);
+}
+
 /// Two panels are wider than they are high, the names are below, and atoms are seen beside.
 TEST(Files, DrawSurfacesSideBySide)
 {
     const Colored made;
     const Folder folder;
-    const ShownSurface one{made.atoms, made.surface, made.options, "one"};
+    const ShownSurface one{&made.atoms, &made.surface, &made.options, "one"};
     const auto draw = [&](const std::vector<ShownSurface>& panels) {
         writePicture(panels, folder / "a.png", {{"size", "300"}});
         return contentOf(folder / "a.png");
@@ -104,7 +128,7 @@ TEST(Files, DrawSurfacesSideBySide)
     other.name = "two";
     EXPECT_EQ(draw({one, other}), two); // no names without a legend
     const auto named = [&](const ShownSurface& last) {
-        writePicture({one, last}, folder / "a.png", {{"size", "300"}, {"legend", "on"}});
+        writePicture(std::vector{one, last}, folder / "a.png", {{"size", "300"}, {"legend", "on"}});
         return contentOf(folder / "a.png");
     };
     EXPECT_NE(named(one), named(other));
@@ -114,8 +138,11 @@ TEST(Files, DrawSurfacesSideBySide)
         return errorOf(ErrorKind::Usage, [&] { draw(panels); });
     };
     EXPECT_HAS(errorWith({}), "expected a surface, got none");
-    other.show = {{"A/1=sticks", &made.atoms}};
-    EXPECT_HAS(errorWith({other}), "`show`: expected a word and atoms with names");
+    for (const auto& [word, atoms] : {std::pair("A/1=sticks", &made.atoms),
+                                      std::pair("sticks", static_cast<const BallSet*>(nullptr))}) {
+        other.show = {{word, atoms}};
+        EXPECT_HAS(errorWith({other}), "`show`: expected a word and atoms with names");
+    }
 }
 
 #ifndef MOLSURF_NO_VIEWER
@@ -132,9 +159,10 @@ TEST(Files, WriteAPageThatNamesTheAtoms)
     nameless.names.reset();
     writePicture(nameless, made.surface, made.options, folder / "crambin.html");
     EXPECT_EQ(contentOf(folder / "crambin.html").find("TYR"), std::string::npos);
-    writePicture({{made.atoms, made.surface, made.options, "first layer"},
-                  {made.atoms, made.surface, made.options, "second layer"}},
-                 folder / "crambin.html");
+    const ShownSurface first{&made.atoms, &made.surface, &made.options, "first layer"};
+    ShownSurface second = first;
+    second.name = "second layer";
+    writePicture(std::vector{first, second}, folder / "crambin.html");
     EXPECT_HAS(contentOf(folder / "crambin.html"), "first layer");
     EXPECT_HAS(contentOf(folder / "crambin.html"), "second layer");
 }

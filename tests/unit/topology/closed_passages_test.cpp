@@ -56,7 +56,7 @@ GapReport gapsOf(const std::vector<Ball>& balls, double voxel, double epsilon,
     GaussianSum sum(balls, options);
     GapReport report;
     sum.band(3, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
-        return decideGaps(sum, psi, rule, Progress(), report);
+        return bumpsOfGaps(sum, psi, rule, Progress(), report);
     });
     return report;
 }

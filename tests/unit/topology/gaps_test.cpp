@@ -36,7 +36,7 @@ SparseField bandOf(GaussianSum& sum, double gradient, GapReport* report = nullpt
 {
     GapReport unused;
     return sum.band(3, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
-        return decideGaps(sum, psi, {gradient}, Progress(), report ? *report : unused);
+        return bumpsOfGaps(sum, psi, {gradient}, Progress(), report ? *report : unused);
     });
 }
 
