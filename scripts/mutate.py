@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: MPL-2.0
 """Breaks the code on purpose, one place after the other, and tells which tests notice.
 
-    scripts/mutate.py [NAME ...] [--check] [--folder build-mutate] [--parallel N]
+    scripts/mutate.py [NAME ...] [--check] [--part K/N] [--folder build-mutate] [--parallel N]
 
 tests/mutations.json lists the mutations: a name, a file, a text that is in it once, what replaces that text, the
 targets to build, and a regular expression of the tests (as of ctest -R) of which at least one has to fail. NAME is
-a part of the names of those to try; without one all are. Everything happens in a copy of the tree in --folder, with a
+a part of the names of those to try; without one all are. --part 2/3 tries the second third of them: each part needs
+a folder of its own. Everything happens in a copy of the tree in --folder, with a
 build folder of its own, so that the tree itself is never touched; the copy stays there for the next time.
 
 First all tests that are named have to pass without a mutation. Each mutation is then killed (a test fails, or does
@@ -117,10 +118,19 @@ def attempt(folder, mutation, jobs):
         path.write_text(whole)
 
 
+def part(text):
+    """K/N as two numbers."""
+    k, n = map(int, text.split("/"))
+    if not 1 <= k <= n:
+        raise ValueError
+    return k, n
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help="parts of the names of mutations [all]")
     parser.add_argument("--check", action="store_true", help="only look whether the texts are in their files")
+    parser.add_argument("--part", type=part, default=(1, 1), metavar="K/N", help="the K-th of N parts of them [all]")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutate", help="of the copy [build-mutate]")
     parser.add_argument("--parallel", type=int, default=os.cpu_count(), help="jobs at a time [all cores]")
     args = parser.parse_args()
@@ -134,8 +144,10 @@ def main():
         return
     chosen = sorted((m for m in mutations if not args.names or any(name in m["name"] for name in args.names)),
                     key=lambda m: m["file"])
+    k, n = args.part
+    chosen = chosen[len(chosen) * (k - 1) // n:len(chosen) * k // n]
     if not chosen:
-        sys.exit(f"no mutation has {' or '.join(args.names)} in its name")
+        sys.exit(f"no mutation has {' or '.join(args.names) or 'a text'} in its name")
 
     folder = args.folder.resolve()
     copy_tree(folder)
