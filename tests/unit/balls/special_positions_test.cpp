@@ -376,5 +376,29 @@ TEST(SpecialPositions, ManyInOnePlace)
     }
 }
 
+// A hole that a probe just fits has no boundary, wherever it is: the moves of the balls do not
+// decide. One that is a thousandth larger has.
+TEST(SpecialPositions, AHoleThatAProbeJustFitsIsNone)
+{
+    const double probe = 1.4, touching = double(1.6f) + probe;
+    for (const double larger : {0.0, 1e-9, 1e-3}) {
+        for (int place = 0; place < 16; ++place) {
+            std::vector<Ball> balls;
+            for (int k = 0; k < 6; ++k) { // an octahedron
+                Vec3d x(0.37 * place, 0.21 * place, -0.13 * place);
+                x[k / 2] += (k % 2 ? touching : -touching) * (1.0 + larger);
+                balls.push_back({x, 1.6f, k});
+            }
+            const Vec3d middle(0.37 * place, 0.21 * place, -0.13 * place);
+            const BallBoundary boundary = ballBoundary(balls, probe, Progress());
+            const auto inside = std::count_if(
+                boundary.corners.begin(), boundary.corners.end(),
+                [&](const Corner& corner) { return (corner.position - middle).length() < 1.0; });
+            EXPECT_EQ(inside, larger < 1e-6 ? 0 : 8) << larger << " " << place;
+            EXPECT_EQ(measured(balls, probe).cavities, larger < 1e-6 ? 0 : 1) << place;
+        }
+    }
+}
+
 } // namespace
 } // namespace molsurf
