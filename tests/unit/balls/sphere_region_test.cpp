@@ -70,23 +70,28 @@ TEST(SphereRegion, HolesBelongToTheFaceAboutThem)
     EXPECT_EQ(region.faces[0].characteristic, 0);
     EXPECT_NEAR(region.area, 0.5 * M_PI - 2.0 * M_PI * (1.0 - near), 1e-14);
 
-    // A chain of caps parts the octant, with the hole and another one on its lower side.
-    caps[3].axis = unit(1, 1, 0.4);
-    caps.push_back({unit(1, 0.2, 0.3), near});
+    // A chain of caps parts the octant, with two holes on one side of it.
+    caps.pop_back();
     for (int k = 0; k <= 30; ++k) {
         const double a = 0.5 * M_PI * k / 30.0;
         caps.push_back({unit(std::cos(a), std::sin(a), 0.75), near});
     }
-    region = regionOf(caps, unit(1, 1, 1));
-    EXPECT_LT(region.mismatch, 1e-10);
-    ASSERT_EQ(region.faces.size(), 2u);
-    const auto& [a, b] = std::pair(region.faces[0], region.faces[1]);
-    EXPECT_EQ(std::min(a.characteristic, b.characteristic), -1);
-    EXPECT_EQ(std::max(a.characteristic, b.characteristic), 1);
-    EXPECT_GT(a.characteristic < 0 ? a.area : b.area, 0.3); // below the chain, at 37 degrees
-    double sum = 0.0;
-    for (const RegionFace& face : region.faces) sum += face.area;
-    EXPECT_NEAR(sum, region.area, 1e-14);
+    for (const bool below : {true, false}) {
+        std::vector<SphereCap> all = caps;
+        all.push_back({below ? unit(1, 1, 0.4) : unit(0.5, 0.5, 1), near});
+        all.push_back({below ? unit(1, 0.2, 0.3) : unit(0.1, 0.5, 1), near});
+        region = regionOf(all, unit(1, 1, 1));
+        EXPECT_LT(region.mismatch, 1e-10);
+        ASSERT_EQ(region.faces.size(), 2u);
+        const auto& [a, b] = std::pair(region.faces[0], region.faces[1]);
+        EXPECT_EQ(std::min(a.characteristic, b.characteristic), -1);
+        EXPECT_EQ(std::max(a.characteristic, b.characteristic), 1);
+        // The mean height of a face is that of its normal over its area.
+        const RegionFace& holed = a.characteristic < 0 ? a : b;
+        const RegionFace& other = a.characteristic < 0 ? b : a;
+        EXPECT_EQ(holed.normal.z() / holed.area < other.normal.z() / other.area, below);
+        EXPECT_NEAR(a.area + b.area, region.area, 1e-14);
+    }
 }
 
 TEST(SphereRegion, NothingIsLeft)
