@@ -74,7 +74,7 @@ void completeReport(const Call& call, const BallSet& balls, const Report& read, 
 
 bool seesBehind(const Call& call)
 {
-    return call.picture.opacity < 1.0 && call.picture.allWalls;
+    return call.picture.opacity < 1.0 && (call.picture.allWalls || call.showsPockets);
 }
 
 RunLimits limitsOf(const Call& call)

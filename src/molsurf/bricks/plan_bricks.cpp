@@ -61,10 +61,11 @@ constexpr double secondsPerFittedLeaf = 0.15e-3, bytesPerFittedLeaf = 25e3; // w
 constexpr double bytesOfPlyPerVoxel = 12.0, bytesPerReadVoxel = 44.0;       // of a mesh
 constexpr double secondsPerComparedVoxel = 0.6e-6;                          // more from afar
 // measured: convert of sas, 4AT1 and 1CRN at 1 and 0.7 Å, 300 to 2400 pixels: 1.2 to 1.5 times
-// the peak, since --show pockets with --opacity takes as much more.
+// the peak.
 constexpr double bytesPerPixel = 85.0, secondsPerPixel = 3e-6; // of a square picture
-constexpr double bytesPerLayeredPixel =
-    55.0; // more, measured: build of these, --opacity 0.4 --all-walls
+// measured: build --opacity 0.4 --all-walls, or --show pockets, of 1CRN, 4AT1, 1EHZ, 1AOI, 1IGY,
+// 1HZH, 4HHB, 1U19: 1.0 to 1.8 times the peak.
+constexpr double bytesPerLayeredPixel = 80.0;                              // more
 constexpr double bytesPerDrawnVoxel = 94.0, secondsPerDrawnVoxel = 0.5e-6; // rays find triangles
 // measured: build --pockets of 1CRN, 1D3Z, 4AT1, 6ZU5 on voxels of 0.25 to 1 Å, --probe-out 3 to
 // 50: 1.0 to 1.5 times the peak.
