@@ -20,6 +20,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -78,6 +79,14 @@ def build(folder, target, jobs):
                            *target.split()],
                           cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     return None if done.returncode == 0 else done.stdout
+
+
+def without_tests(folder, mutations):
+    """The names of mutations whose regular expression matches no test."""
+    listed = subprocess.run(["ctest", "--preset", "release", "-N"], cwd=folder, check=True, capture_output=True,
+                            text=True).stdout
+    tests = re.findall(r"Test +#\d+: (\S+)", listed)
+    return [m["name"] for m in mutations if not any(re.search(m["tests"], test) for test in tests)]
 
 
 def failing(folder, tests, jobs, seconds=None):
@@ -159,6 +168,8 @@ def main():
         print(f"building {target}", flush=True)
         if trouble := build(folder, target, args.parallel):
             sys.exit(trouble)
+    if lost := without_tests(folder, chosen):
+        sys.exit(f"no test for: {'; '.join(lost)}")
     if broken := failing(folder, "|".join(sorted({m["tests"] for m in chosen})), args.parallel):
         sys.exit(f"without a mutation fails: {', '.join(broken)}")
 
