@@ -275,6 +275,44 @@ TEST(GaussianSum, DecaysOfSingleBalls)
     EXPECT_NEAR(field.tolerance(), M_LN2 / (0.1 * (1.7 + 1.4)), 0.01);
 }
 
+// A wide bead beside narrow ones is felt as far as its own rate says, whatever the order of balls.
+TEST(GaussianSum, OfManyRatesReachesAsFarAsTheSlowest)
+{
+    constexpr double R = 1.7 + 1.4, wide = 0.1, narrow = 1.0; // [Å], [1/Å^2]
+    std::vector<Ball> balls = {{openvdb::Vec3f(0.0f), 1.7f, 0},
+                               {openvdb::Vec3f(4.0f, 1.0f, 0.5f), 1.7f, 1},
+                               {openvdb::Vec3f(9.0f, 0.0f, 0.0f), 1.7f, 2}};
+    const GaussianOptions options{1.4, 0.5, 0.0, 0.5, 3.0};
+    for (const int slow : {0, 1}) {
+        std::vector<Decay> decays(3, {float(narrow), 0.0f});
+        decays[std::size_t(slow)].rate = float(wide);
+        const GaussianSum field(balls, options, decays);
+        EXPECT_NEAR(field.tolerance(), M_LN2 / (wide * R), 1e-4);
+        for (double far = 3.0; far < 7.0; far += 0.5) {
+            const Vec3d x(-0.5 * far, far, 0.4);
+            double sum = 0.0;
+            for (std::size_t i = 0; i < 3; ++i)
+                sum += std::exp(-double(decays[i].rate) *
+                                ((x - Vec3d(balls[i].center)).lengthSqr() - R * R));
+            EXPECT_NEAR(field.jet(x).psi, std::log(sum), 1e-4) << slow << " " << far;
+        }
+    }
+}
+
+// So far within the rim of a ball that is smaller no point lies.
+TEST(GaussianSum, SmallBallsCoverNothingBeyondTheirRim)
+{
+    const std::vector<Ball> balls = {{openvdb::Vec3f(0.0f), 0.3f, 0},
+                                     {openvdb::Vec3f(2.0f, 0.0f, 0.0f), 0.5f, 1}};
+    const GaussianSum field(balls, {0.0, 0.5, 0.0, 0.5, 3.0});
+    for (double x = -0.6; x < 2.6; x += 0.04) {
+        for (const double more : {0.0, 0.2, 0.4, 0.6}) {
+            const bool covered = std::abs(x) < 0.3 - more || std::abs(x - 2.0) < 0.5 - more;
+            EXPECT_EQ(field.isCovered(Vec3d(x, 0.0, 0.0), more), covered) << x << " " << more;
+        }
+    }
+}
+
 // Narrow Gaussians on coarse voxels: the exponents differ so much within a leaf that products
 // underflow, and the largest one of each voxel has to be the scale.
 TEST(GaussianSum, AgreesWithTheDefinitionWhereProductsUnderflow)

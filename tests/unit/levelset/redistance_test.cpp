@@ -326,5 +326,55 @@ TEST(Redistance, MarksAKinkOfFortyDegrees)
     EXPECT_GT(double(marked), 0.9 * double(beside)) << marked << " of " << beside;
 }
 
+// The middle of a slab across each axis: every voxel below it has a kink to the next one up.
+TEST(Redistance, MarksTheKinkOfASlabAcrossEachAxis)
+{
+    constexpr double voxel = 0.5;
+    test::Pose square; // on the voxels
+    square.turn = openvdb::Mat3d::identity();
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d axes(5.0);
+        axes[axis] = 2.0;
+        const test::Shape slab = test::ellipsoid(axes, square);
+        const DistanceBand band =
+            redistanced(slab.distance, slab.centre, slab.extent, voxel, 3.0, 0.5);
+        std::size_t beside = 0, marked = 0;
+        test::forEachActive(band.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& world) {
+            Vec3d x = square.toLocal(world);
+            const double height = x[axis];
+            x[axis] = 0.0;
+            if (x.length() > 2.5 || height > 0.0 || height + voxel <= 0.0) return;
+            ++beside;
+            marked += band.kinks.active(n).on(v);
+        });
+        EXPECT_GT(beside, 70u) << axis;
+        EXPECT_EQ(marked, beside) << axis;
+    }
+}
+
+// A wall of less than a voxel: each of its sides has closest points of its own, as those of one
+// side are none of the other's.
+TEST(Redistance, OfAWallThinnerThanAVoxel)
+{
+    constexpr double voxel = 0.5, middle = 0.05, half = 0.2; // [Å]
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto distance = [=](const Vec3d& x) { return std::abs(x[axis] - middle) - half; };
+        const auto smooth = [=](const Vec3d& x) { // of slope 1 at both sides
+            const double t = x[axis] - middle;
+            return (t * t - half * half) / (2.0 * half);
+        };
+        const LeafTable table = test::bandTable(distance, Vec3d(0.0), 8.0, voxel, 4.0 * voxel);
+        const DistanceBand band =
+            redistance(test::filled(table, voxel, smooth), {1.0, 1.0}, 0.0, Progress());
+        std::size_t count = 0;
+        test::forEachActive(band.phi.table, voxel, [&](std::size_t n, int v, const Vec3d& x) {
+            if (x.length() > 3.0) return; // far from where the wall ends
+            ++count;
+            EXPECT_NEAR(band.phi.leaf(n)[v], distance(x), 0.004 * voxel) << x;
+        });
+        EXPECT_GT(count, 500u);
+    }
+}
+
 } // namespace
 } // namespace molsurf
