@@ -136,5 +136,62 @@ TEST(ClosedPassages, AreNotCountedWhereBallsHaveRates)
     EXPECT_FALSE(gapsOf(cage(60, grown + 0.5), 0.5, 0.5, {0.01, 0.0, false}).closedByField);
 }
 
+/// Places of psi as given, in a row along x with room about them; psi between them is `between`.
+/// At place i the field opens with a tolerance opens[i] times smaller.
+GapReport closedAmong(const std::vector<Gap>& gaps, double between,
+                      const std::vector<double>& opens, const GapRule& rule, double epsilon)
+{
+    const auto at = [](double psi) { return PsiJet{psi, Vec3d(0.0), openvdb::Mat3d::zero()}; };
+    const PassageField field{[=](const Vec3d&) { return at(between); },
+                             [](const Vec3d&) { return 0.5; },
+                             [=](const Vec3d& x, double times) {
+                                 const double limit = opens[std::size_t(std::lround(x.x()))];
+                                 return at(times < limit ? 1.0 : -1.0);
+                             }};
+    GapReport report;
+    countClosedByField(gaps, field, rule, epsilon, report);
+    return report;
+}
+
+Gap gapOf(double x, double psi, const Vec3d& curvatures)
+{
+    Gap gap{};
+    gap.place = Vec3d(x, 0.0, 0.0);
+    gap.psi = psi;
+    gap.curvatures = curvatures;
+    return gap;
+}
+
+// Tension closes a void below zero, and its neck at zero; psi between them needs to be above the
+// lower of both, in whichever order they come.
+TEST(ClosedPassages, OfAVoidAndItsNeckAreOne)
+{
+    const Vec3d tight(4.0), none(-1.0);
+    const GapRule rule{0.05};
+    ASSERT_EQ(gapOf(0.0, 0.0, tight).closedAbove(rule.gradient, 0.0), -1.5);
+    ASSERT_EQ(gapOf(0.0, 0.0, none).closedAbove(rule.gradient, 0.0), 0.0);
+    const std::vector<double> opens = {2.0, 2.0};
+    for (const bool first : {true, false}) {
+        const std::vector<Gap> gaps = {gapOf(0.0, 0.3, first ? tight : none),
+                                       gapOf(1.0, 0.3, first ? none : tight)};
+        EXPECT_EQ(closedAmong(gaps, -1.0, opens, rule, 0.5).closedByField, 1u) << first;
+        EXPECT_EQ(closedAmong(gaps, -1.6, opens, rule, 0.5).closedByField, 2u) << first;
+    }
+}
+
+// A pore opens where all of its wide places do, whichever of them opens last.
+TEST(ClosedPassages, OpenBelowTheSmallestToleranceOfTheirPlaces)
+{
+    const Vec3d none(-1.0);
+    const std::vector<Gap> gaps = {gapOf(0.0, 0.3, none), gapOf(1.0, 0.3, none),
+                                   gapOf(2.0, 0.3, none)};
+    for (const std::vector<double>& opens :
+         {std::vector{10.0, 3.0, 2.0}, {3.0, 10.0, 2.0}, {2.0, 3.0, 10.0}}) {
+        const GapReport report = closedAmong(gaps, 0.3, opens, {0.01}, 0.5);
+        EXPECT_EQ(report.closedByField, 1u);
+        EXPECT_NEAR(report.opensBelow, 0.05, 0.001) << opens[0];
+    }
+}
+
 } // namespace
 } // namespace molsurf

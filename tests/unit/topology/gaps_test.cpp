@@ -177,6 +177,11 @@ TEST(Gaps, ThatLieNearEachOtherAreTwo)
     EXPECT_EQ(distinct({one, other, one, other}).size(), 2u);
     other.place = openvdb::Vec3d(3e-4, 2e-4, 0.0); // the same, but for rounding
     EXPECT_EQ(distinct({one, other}).size(), 1u);
+    // One between the two by x, as in a molecule that stands square.
+    Gap beside{};
+    beside.place = openvdb::Vec3d(2e-5, 0.5, 0.0);
+    other.place = openvdb::Vec3d(4e-5, 0.0, 0.0);
+    EXPECT_EQ(distinct({one, beside, other}).size(), 2u);
 }
 
 // On voxels of any size and in any pose, a cavity is there or not by its depth alone.
@@ -303,6 +308,75 @@ TEST(Bumps, HaveTheirDerivatives)
                     1e-8);
         for (int b = 0; b < 3; ++b)
             EXPECT_NEAR((above[b] - below[b]) / (2.0 * step), hessian(a, b), 1e-8);
+    }
+}
+
+// Saddles amid two atoms on their axis: psi there is ln 2 + C (R^2 - D^2/4), and those below 1.6
+// count, on voxels of any size and also where the atoms cover them.
+TEST(Gaps, BetweenTwoAtomsCountUpToTheirLimit)
+{
+    const double C = M_LN2 / (tolerance * R);
+    for (const double level : {-1.3, 0.4, 1.45, 1.9}) {
+        const double half = std::sqrt(R * R - (level - M_LN2) / C);
+        const std::vector<Ball> balls = {{Vec3d(0.11, -half, 0.23), float(R - 1.4), 0},
+                                         {Vec3d(0.11, half, 0.23), float(R - 1.4), 1}};
+        for (const double voxel : {0.75, 0.5, 0.25, 0.15}) {
+            GaussianSum sum(balls, optionsWith(voxel));
+            GapReport report;
+            bandOf(sum, tension, &report);
+            EXPECT_EQ(report.found, level < farthestGap ? 1u : 0u) << level << " " << voxel;
+        }
+    }
+}
+
+// A closed and an open gap so near that the bump of one undoes that of the other: both are held.
+TEST(Gaps, NearEachOtherAreBothHeld)
+{
+    constexpr double voxel = 0.5, flat = -0.05;
+    const PsiJetAt jet = [](const Vec3d&) { return PsiJet{flat, Vec3d(0.0), Mat3d::zero()}; };
+    for (const double apart : {0.45, 0.6, 0.9}) {
+        std::vector<Gap> gaps(2);
+        gaps[1].place = Vec3d(0.0, apart, 0.0);
+        for (Gap& gap : gaps) gap.psi = flat;
+        for (const bool first : {true, false}) {
+            const std::vector<Decision> decisions = {{gaps[0].place, first ? 0.1 : -0.1},
+                                                     {gaps[1].place, first ? -0.1 : 0.1}};
+            Bumps bumps(voxel);
+            holdGaps(jet, gaps, decisions, voxel, bumps);
+            for (std::size_t i = 0; i < 2; ++i) {
+                const double psi = flat + bumps.at(gaps[i].place);
+                EXPECT_GT(decisions[i].closed() ? psi : -psi, 0.02) << apart << " " << i;
+            }
+        }
+    }
+}
+
+// A neck that is closed, across which psi falls, becomes as thick as voxels hold, 0.7 of one on
+// each side of its middle; an open slit, across which it rises, as wide.
+TEST(Gaps, AreHeldAcrossTheirThinAxis)
+{
+    std::mt19937 random(9);
+    for (const double voxel : {0.7, 0.5, 0.25}) {
+        for (const double side : {1.0, -1.0}) { // closed, open
+            const Pose pose(random);
+            const Vec3d curvatures = side * Vec3d(-8.0, 1.5, 3.0); // along the pose's axes
+            const PsiJetAt jet = [&](const Vec3d& x) {
+                const Vec3d y = pose.turn.transpose() * (x - pose.shift);
+                Mat3d hessian = Mat3d::zero();
+                for (int a = 0; a < 3; ++a) hessian(a, a) = curvatures[a];
+                return PsiJet{side * 0.05 + 0.5 * y.dot(hessian * y), pose.turn * (hessian * y),
+                              pose.turn * hessian * pose.turn.transpose()};
+            };
+            const auto gap = gapAt(pose.shift, jet(pose.shift));
+            ASSERT_TRUE(gap);
+            Bumps bumps(voxel);
+            holdGaps(jet, {*gap}, {{gap->place, side * 0.1}}, voxel, bumps);
+            const double reach = std::min(0.7 * voxel, 0.5);
+            for (const double t : {-reach, 0.0, reach}) {
+                const Vec3d x = pose.of({t, 0.0, 0.0});
+                EXPECT_GT(side * (jet(x).psi + bumps.at(x)), 0.1) << voxel << " " << t;
+            }
+        }
     }
 }
 

@@ -2,10 +2,12 @@
 #include "molsurf/topology/walls.h"
 
 #include "molsurf/levelset/closest_foot.h"
+#include "molsurf/levelset/seed_kinks.h"
 #include "support/fields.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -106,6 +108,56 @@ TEST(ThinPlaces, LieAmidTwoOrThreeSheets)
     std::vector<Vec3d> thick = wall;
     for (Vec3d& y : thick) y *= 1.6;
     EXPECT_EQ(count(thick, Vec3d(0.0)), 0u);
+}
+
+// A third sheet that bounds no neck takes nothing from a wall of the other two.
+TEST(ThinPlaces, OfTwoSheetsAreSeenBesideAThird)
+{
+    const double depth = 5.6;
+    const std::vector<Vec3d> wall{{0, 0, depth}, {0, 0, -depth}};
+    const Vec3d third(0.5 * depth, 0, 0);
+    for (int place = 0; place < 3; ++place) {
+        std::vector<Vec3d> feet = wall;
+        feet.insert(feet.begin() + place, third);
+        std::vector<ThinPlace> out;
+        findThinPlaces(feet, Vec3d(0.1, -0.2, 0.3), depth, out);
+        ASSERT_EQ(out.size(), 1u) << place;
+        EXPECT_EQ(out[0].sheets, wall);
+    }
+}
+
+// A slab twice as thick as a depth, wherever its middle lies between voxels: voxels tell of it, by
+// a foot on either side, and by all feet about those.
+TEST(ThinPlaces, OfASlabLieInItsMiddle)
+{
+    constexpr double voxel = 0.7, depth = 1.4;
+    for (const double middle : {0.01, 0.5, 0.99}) { // [voxel]
+        test::Pose square;
+        square.turn = Mat3d::identity();
+        square.centre = Vec3d(0.1, 0.2, middle * voxel);
+        const test::Shape slab = test::ellipsoid(Vec3d(6.0, 6.0, depth), square);
+        const LeafTable table =
+            test::bandTable(slab.distance, slab.centre, slab.extent, voxel, 4.0 * voxel);
+        const NearestSeeds near =
+            nearestSeeds(test::filled(table, voxel, slab.distance), {2.0 * depth, voxel}, -depth,
+                         openvdb::CoordBBox::inf(), Progress());
+        const std::vector<ThinPlace> places =
+            thinPlaces(near, kinksOf(near, Progress()).turns, depth / voxel, Progress());
+        std::size_t walls = 0;
+        for (const ThinPlace& place : places) {
+            if (place.sheets.size() != 2) continue;
+            const Vec3d centre = rimOf(place.sheets).centre;
+            if (std::hypot(centre.x(), centre.y()) > 2.0) continue;
+            ++walls;
+            EXPECT_NEAR(centre.z(), middle, 0.05);
+            for (const Vec3d& sheet : place.sheets) {
+                EXPECT_TRUE(std::any_of(place.near.begin(), place.near.end(), [&](const Vec3d& y) {
+                    return (y - sheet).length() < 0.8;
+                }));
+            }
+        }
+        EXPECT_GT(walls, 8u) << middle;
+    }
 }
 
 TEST(Walls, AreFoundOnceAndWhereNoOtherSheetIsNearer)
