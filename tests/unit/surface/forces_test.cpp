@@ -2,11 +2,19 @@
 #include "molsurf/surface.h"
 
 #include "molsurf/error.h"
+#include "molsurf/flow/evolve.h"
+#include "molsurf/flow/rest.h"
+#include "molsurf/mesh/patch_gradients.h"
+#include "molsurf/surface/carrier_of.h"
+#include "molsurf/surface/surface_kind.h"
+#include "molsurf/topology/gaps_of_sum.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace molsurf
 {
@@ -118,6 +126,130 @@ TEST(SmoothForces, AddUpToNothing)
         EXPECT_GT(lengths, 10.0);
         EXPECT_LT(sum.length(), 1e-9 * lengths);
     }
+}
+
+/// psi - v of a surface for balls in other places, with the bumps that the gaps of the first have.
+class ByDifferences
+{
+public:
+    ByDifferences(const BallSet& atoms, const SurfaceSpec& spec)
+        : balls_(atoms.balls), options_(gaussianOptions(spec)),
+          weights_(weightsOf(flowOptions(spec)))
+    {
+        const std::vector<double> slopes = slopesOf(balls_, options_, {});
+        least_ = 0.2 * *std::min_element(slopes.begin(), slopes.end());
+        sums_.emplace_back(balls_, options_);
+        if (const auto rule = gapRuleOf(spec)) {
+            GapReport report;
+            sums_[0].band(0, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
+                return decideGaps(sums_[0], psi, *rule, Progress(), report);
+            });
+        }
+        for (std::size_t k = 0; k < 6 * balls_.size(); ++k) {
+            std::vector<Ball> moved = balls_;
+            moved[k / 6].center[int(k / 2 % 3)] += k % 2 == 0 ? -float(step) : float(step);
+            sums_.emplace_back(moved, options_);
+            sums_.back().setBumps(sums_[0].bumps());
+        }
+    }
+
+    std::size_t bumps() const { return sums_[0].bumps().size(); }
+
+    /// The derivatives of the volume over nodes that move along their normals as psi - v = 0 does,
+    /// and with them a share of each ball that makes a translation one of all.
+    std::vector<Vec3d> ofVolume(const PatchNodes& nodes) const
+    {
+        std::vector<Vec3d> out(balls_.size(), Vec3d(0.0));
+        for (std::size_t n = 0; n < nodes.points.size(); ++n) add(nodes, n, out);
+        return out;
+    }
+
+private:
+    static constexpr double step = 1.0 / 512.0; // [Å]
+
+    double at(std::size_t sum, const Vec3d& x) const
+    {
+        const PsiJet jet = sums_[sum].jetWithBumps(x);
+        return jet.psi - levelAtRest(jet, least_, weights_).v;
+    }
+
+    void add(const PatchNodes& nodes, std::size_t n, std::vector<Vec3d>& out) const
+    {
+        const Vec3d& normal = nodes.normals[n];
+        double low = -0.3, high = 0.3; // of a surface without an offset
+        while (high - low > 1e-6) {
+            const double way = 0.5 * (low + high);
+            (at(0, nodes.points[n] + way * normal) > 0.0 ? low : high) = way;
+        }
+        const Vec3d x = nodes.points[n] + low * normal;
+        const double slope =
+            std::max((at(0, x - 0.01 * normal) - at(0, x + 0.01 * normal)) / 0.02, least_);
+        std::vector<Vec3d> speeds(balls_.size());
+        std::vector<double> shares(balls_.size());
+        double total = 0.0;
+        Vec3d lacks = normal;
+        for (std::size_t i = 0; i < balls_.size(); ++i) {
+            for (int a = 0; a < 3; ++a) {
+                const std::size_t moved = 6 * i + 2 * std::size_t(a) + 1;
+                speeds[i][a] = (at(moved + 1, x) - at(moved, x)) / (2.0 * step * slope);
+            }
+            lacks -= speeds[i];
+            const double R = balls_[i].radius + options_.probe;
+            shares[i] =
+                std::exp(options_.rate(R) * (R * R - (x - Vec3d(balls_[i].center)).lengthSqr()));
+            total += shares[i];
+        }
+        const double along = nodes.volume[n].dot(normal);
+        for (std::size_t i = 0; i < balls_.size(); ++i) {
+            const double share = shares[i] / total;
+            out[i] +=
+                along * (speeds[i] + share * lacks) + share * (nodes.volume[n] - along * normal);
+        }
+    }
+
+    std::vector<Ball> balls_;
+    GaussianOptions options_;
+    Weights weights_;
+    double least_;
+    std::vector<GaussianSum> sums_; // first of the balls themselves
+};
+
+/// Holds the derivatives of the volume against differences of psi - v.
+void expectTheLevelsDerivatives(const BallSet& atoms, const SurfaceSpec& spec, bool hasBumps)
+{
+    const ByDifferences wanted(atoms, spec);
+    EXPECT_EQ(wanted.bumps() > 0, hasBumps);
+    const Mesh mesh = made(atoms, spec).mesh;
+    const std::vector<Vec3d> found = surfaceGradients(atoms, spec, mesh).volume,
+                             by = wanted.ofVolume(patchNodes(mesh));
+    double worst = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        worst = std::max(worst, (found[i] - by[i]).length());
+    EXPECT_LT(worst, 2e-4 * rmsOf(by));
+}
+
+// The interface itself moves as psi - v changes at fixed points, which differences of it show,
+// also where the field has bumps that hold a gap, which are taken as fixed: six atoms about a
+// cavity.
+TEST(SmoothForces, AreThoseOfTheLevelAtEachPoint)
+{
+    SurfaceSpec spec;
+    spec.kind = SurfaceKind::SmoothAccessible;
+    for (const Regularizer regularizer : {Regularizer::Gradient, Regularizer::Area}) {
+        spec.evolution.regularizer = regularizer;
+        spec.evolution.lambda = 0.02;
+        SCOPED_TRACE(int(regularizer));
+        expectTheLevelsDerivatives(sixBalls(), spec, false);
+    }
+    spec.evolution = {};
+    spec.evolution.lambda = 1e-3;
+    BallSet cage;
+    for (int i = 0; i < 6; ++i) {
+        Vec3d x(0.13, -0.21, 0.07);
+        x[i % 3] += i < 3 ? 3.78 : -3.78;
+        cage.balls.push_back({x, 1.7f, i});
+    }
+    expectTheLevelsDerivatives(cage, spec, true);
 }
 
 TEST(SmoothForces, AreRefusedWhereNothingKnowsThem)

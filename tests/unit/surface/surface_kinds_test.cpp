@@ -243,6 +243,45 @@ TEST(SmoothAccessible, IsTheLevelSetAtRest)
     EXPECT_GT(s.volume, exact.volume);
 }
 
+// The field "sas" is the solvent-accessible surface, whichever surface is made: of one atom a ball
+// of its radius and the probe's, up to what lambda takes off a variational one.
+TEST(Sas, OfOneAtomIsThatOfTheProbe)
+{
+    constexpr double voxel = 0.5, radius = 1.7;
+    const Vec3d centre(0.1, -0.2, 0.3);
+    for (const double probe : {1.4, 1.0}) {
+        for (const SurfaceKind kind :
+             {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
+              SurfaceKind::SolventAccessible, SurfaceKind::VanDerWaals, SurfaceKind::Gaussian}) {
+            SurfaceOptions options = optionsFor(kind, voxel);
+            options.probe = probe;
+            options.fields = {"sas"};
+            const MolecularSurface result = test::runOn({{centre, float(radius), 0}}, options);
+            const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(result.fields.at(0));
+            ASSERT_GT(grid->activeVoxelCount(), 500u) << nameOf(kind);
+            for (auto it = grid->cbeginValueOn(); it; ++it) {
+                const double d = (it.getCoord().asVec3d() * voxel - centre).length();
+                ASSERT_NEAR(*it, d - radius - probe, 0.03) << nameOf(kind) << " " << probe;
+            }
+        }
+    }
+}
+
+// A ball that has to be 6 Å thick becomes one of radius 3 Å, beyond the band of its own surface.
+TEST(MinWall, OfASmallBallIsABallOfTheWall)
+{
+    for (const SurfaceKind kind : {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
+                                   SurfaceKind::VanDerWaals, SurfaceKind::SmoothAccessible}) {
+        SurfaceOptions options = optionsFor(kind, 0.25);
+        options.minWall = 6.0;
+        const SurfaceReport s = test::runOn({{Vec3d(0.0), 1.0f, 0}}, options).report.surface;
+        EXPECT_TRUE(s.closed && s.manifold) << nameOf(kind);
+        EXPECT_EQ(s.eulerCharacteristic, 2) << nameOf(kind);
+        EXPECT_NEAR(s.area, 36.0 * M_PI, 0.36 * M_PI) << nameOf(kind);
+        EXPECT_NEAR(s.volume, 36.0 * M_PI, 0.36 * M_PI) << nameOf(kind);
+    }
+}
+
 TEST(UnionSurfaces, OfSpecialPositions)
 {
     const auto at = [](float x, float y, float z) { return Ball{Vec3f(x, y, z), 1.7f, 0}; };
