@@ -142,7 +142,7 @@ public:
         if (const auto rule = gapRuleOf(spec)) {
             GapReport report;
             sums_[0].band(0, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
-                return decideGaps(sums_[0], psi, *rule, Progress(), report);
+                return bumpsOfGaps(sums_[0], psi, *rule, Progress(), report);
             });
         }
         for (std::size_t k = 0; k < 6 * balls_.size(); ++k) {
