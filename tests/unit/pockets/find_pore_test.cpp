@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -204,7 +205,7 @@ TEST(FindPore, ABlockedTubeHasANegativeRadiusAndItsPlace)
     EXPECT_EQ(pore.conductance(), 0.0);
 }
 
-// A bent channel through a block: the sections turn with it.
+// A bent channel through a block.
 TEST(FindPore, ABentWayIsFollowed)
 {
     std::vector<Ball> balls;
@@ -228,6 +229,28 @@ TEST(FindPore, ABentWayIsFollowed)
         const Vec3d x = placeOf(s);
         EXPECT_LT(std::min(std::hypot(x[1], x[2]), std::hypot(x[0], x[2])), 2.0) << x;
     }
+}
+
+// A channel that turns back: its sections lie across it in either arm and between them.
+TEST(FindPore, SectionsTurnWithTheWay)
+{
+    std::vector<Ball> balls;
+    const auto isEmpty = [](double x, double y, double z) {
+        const bool arm = std::hypot(std::abs(y) - 6.0, z) < 3.2 && x < 3.2;
+        return arm || (std::hypot(x, z) < 3.2 && std::abs(y) < 9.2);
+    };
+    for (double x = -12.0; x <= 7.0; x += 1.0)
+        for (double y = -13.0; y <= 13.0; y += 1.0)
+            for (double z = -7.0; z <= 7.0; z += 1.0)
+                if (!isEmpty(x, y, z))
+                    balls.push_back({Vec3d(x, y, z), 1.5, std::int32_t(balls.size())});
+    const Report::Pore pore = findPore(
+        balls, {{{Vec3d(-11.0, -6.0, 0.0), true}, {Vec3d(-11.0, 6.0, 0.0), true}}, Vec3d(0.0)},
+        nobody);
+    EXPECT_GT(pore.stations.front().normal[0], 0.95);
+    EXPECT_LT(pore.stations.back().normal[0], -0.95);
+    EXPECT_GT(pore.stations[pore.stations.size() / 2].normal[1], 0.9);
+    EXPECT_GT(pore.length(), 22.0); // there and back
 }
 
 void expectError(const std::vector<Ball>& balls, const BallSet::PoreWay& way, ErrorKind kind,
@@ -314,6 +337,37 @@ TEST(Clearance, TheWidestPlaceOfASectionIsExact)
             best = std::max(best, clearance.at(plane.at(0.002 * i, 0.002 * k)));
     EXPECT_LE(best, found->radius + 1e-9);
     EXPECT_NEAR(best, found->radius, 0.002);
+}
+
+/// Three balls of 1 Å about a place, 3 Å from it, at some angles [degree].
+std::vector<Ball> threeAbout(const Vec3d& middle, const std::array<double, 3>& angles)
+{
+    std::vector<Ball> out;
+    for (const double angle : angles) {
+        const double a = angle * M_PI / 180.0;
+        out.push_back({middle + 3.0 * Vec3d(std::cos(a), std::sin(a), 0.0), 1.0f, int(out.size())});
+    }
+    return out;
+}
+
+// A ball that touches three others is the largest only if they hold it from all sides.
+TEST(Clearance, AHeldBallTouchesThreeFromAllSides)
+{
+    const Vec3d middle(10.0, 20.0, 5.0);
+    const Plane plane(middle, Vec3d(0.0, 0.0, 1.0));
+    for (const bool held : {true, false}) {
+        const Clearance clearance(threeAbout(middle, held ? std::array{0.0, 130.0, 250.0}
+                                                          : std::array{-50.0, 10.0, 60.0}));
+        const auto widest = clearance.widestIn(plane, middle + Vec3d(0.1, -0.2, 0.0), 0.5);
+        const auto neck = clearance.neckNear(middle + Vec3d(0.1, -0.2, 0.3), 0.5, 5.0);
+        EXPECT_EQ(bool(widest), held);
+        EXPECT_EQ(bool(neck), held);
+        for (const auto& found : {widest, neck}) {
+            if (!found) continue;
+            EXPECT_LT((found->place - middle).length(), 1e-9);
+            EXPECT_NEAR(found->radius, 2.0, 1e-9);
+        }
+    }
 }
 
 } // namespace

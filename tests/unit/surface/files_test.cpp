@@ -167,6 +167,35 @@ TEST(Files, WriteAPageThatNamesTheAtoms)
     EXPECT_HAS(contentOf(folder / "crambin.html"), "second layer");
 }
 
+/// Layers have the scale of values of the first.
+TEST(Files, WriteAPageOfLayersInOneScale)
+{
+    Colored made;
+    made.options.color = ColorBy::MeanCurvature;
+    made.surface = makeSurface(made.atoms, made.options);
+    SurfaceOptions other = made.options;
+    other.kind = SurfaceKind::VanDerWaals;
+    const MolecularSurface vdw = makeSurface(made.atoms, other);
+    const Folder folder;
+    const auto scalesOf = [&](const std::vector<ShownSurface>& layers) {
+        writePicture(layers, folder / "a.html");
+        const std::string page = contentOf(folder / "a.html");
+        std::vector<std::string> out;
+        for (std::size_t at = page.find("\"high\":"); at != std::string::npos;
+             at = page.find("\"high\":", at + 1))
+            out.push_back(page.substr(at, page.find(',', at) - at));
+        return out;
+    };
+    const ShownSurface one{&made.atoms, &made.surface, &made.options, "one"},
+        two{&made.atoms, &vdw, &other, "two"};
+    const std::vector<std::string> first = scalesOf({one}), second = scalesOf({two});
+    ASSERT_FALSE(first.empty());
+    EXPECT_NE(first, second);
+    std::vector<std::string> both = first;
+    both.insert(both.end(), first.begin(), first.end());
+    EXPECT_EQ(scalesOf({one, two}), both);
+}
+
 /// The balls of a copy have the names of those that it is made of.
 TEST(Files, WriteAPageOfCopiesThatNamesTheAtoms)
 {
