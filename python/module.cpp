@@ -300,8 +300,9 @@ nb::tuple gradientsOf(MadeSurface& surface, const How& how)
     MolecularSurface::Gradients found = run(how, [&](Progress& progress) {
         return surfaceGradients(*surface.atoms, surface.options, surface.result.mesh, progress);
     });
+    const auto beside = std::count(found.besideGap.begin(), found.besideGap.end(), 1);
     return nb::make_tuple(owned<double>(std::move(found.volume)),
-                          owned<double>(std::move(found.area)));
+                          owned<double>(std::move(found.area)), beside);
 }
 
 nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::string& level)

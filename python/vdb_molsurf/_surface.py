@@ -5,6 +5,7 @@ import html
 import json
 import os
 import tempfile
+import warnings
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -299,14 +300,18 @@ class Surface:
     def forces(self, gamma=0.0, pressure=0.0, *, progress=None, threads=0):
         """The force on each atom, -(gamma dA/dx + pressure dV/dx), in closed form of kinds ses, sas and vdw.
 
-        Of variational and smooth-sas it is that of the mesh, by the shape derivative; gaussian has none.
+        Of variational and smooth-sas it is that of the mesh, by the shape derivative; gaussian has none. A warning counts
+        atoms beside gaps that were decided, whose forces are uncertain.
 
         gamma is energy per Å², pressure energy per Å³; the result, of shape (atoms, 3), is energy per Å.
         """
         for name, value in (("gamma", gamma), ("pressure", pressure)):
             if not np.isfinite(float(value)):
                 raise ValueError(f"{name}: expected a finite number")
-        volume, area = _called(self._core.gradients, progress=progress, threads=threads)
+        volume, area, beside = _called(self._core.gradients, progress=progress, threads=threads)
+        if beside:
+            warnings.warn(f"forces: {beside} atoms lie beside gaps that the surface closes or opens; their forces leave out how "
+                          "that changes and can be wrong by their own size [hint: kind=\"ses\" is in closed form]", stacklevel=2)
         return -(float(gamma) * area + float(pressure) * volume)
 
     def sample(self, n, seed=None):

@@ -30,6 +30,7 @@ public:
 
     void add(const Bump& bump);
     std::size_t size() const { return bumps_.size(); }
+    const std::vector<Bump>& all() const { return bumps_; }
 
     /// Whether any reaches the leaf with this first voxel.
     bool reach(const openvdb::Coord& origin) const { return leaves_.count(origin) > 0; }

@@ -25,6 +25,7 @@ std::vector<double> residueAreasOfBalls(const BallSet& atoms, const std::vector<
 /// dA_dz_A.
 /// @param[in] mesh  of the surface, where it has no closed form
 /// @throws Error(ErrorKind::Usage) if the atoms have no names, or are a unit or copies
+/// Of smooth surfaces beside_gap, too: MolecularSurface::Gradients::besideGap.
 /// @throws Error as surfaceGradients()
 Table forceTable(const BallSet& atoms, const SurfaceSpec& spec, const Mesh& mesh);
 

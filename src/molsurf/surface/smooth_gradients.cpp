@@ -171,6 +171,20 @@ void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t no
     }
 }
 
+/// The balls that psi consists of at the places of bumps, where these would change with them.
+std::vector<char> ballsBesideGaps(const GaussianSum& sum, std::size_t balls)
+{
+    constexpr double leastShare = 0.05; // of the terms there
+    std::vector<char> out(balls, 0);
+    for (const Bump& bump : sum.bumps().all()) {
+        const double psi = sum.jet(bump.place).psi;
+        sum.forEachTerm(bump.place, [&](std::int32_t ball, double exponent, double, const Vec3d&) {
+            if (std::exp(exponent - psi) > leastShare) out[std::size_t(ball)] = 1;
+        });
+    }
+    return out;
+}
+
 } // namespace
 
 BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, const Mesh& mesh,
@@ -202,7 +216,8 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
             addNode(interface, nodes, n, terms, parts[c]);
     });
     BallGradients out{std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0)),
-                      std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0))};
+                      std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0)),
+                      ballsBesideGaps(sum, atoms.balls.size())};
     for (const Sums& part : parts) {
         for (const auto& [ball, sums] : part) {
             out.volume[std::size_t(ball)] += sums.first;

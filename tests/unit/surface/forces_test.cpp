@@ -252,6 +252,22 @@ TEST(SmoothForces, AreThoseOfTheLevelAtEachPoint)
     expectTheLevelsDerivatives(cage, spec, true);
 }
 
+// A ring whose hole tension closes: psi is -0.3 in its middle. A ball far away is none of it.
+TEST(SmoothForces, KnowWhichBallsLieBesideAGap)
+{
+    const double R = 3.1, C = M_LN2 / (0.5 * R), d = std::sqrt(R * R + (std::log(4.0) + 0.3) / C);
+    BallSet atoms;
+    for (int k = 0; k < 4; ++k) {
+        Vec3d x(0.0);
+        x[k / 2] = k % 2 ? d : -d;
+        atoms.balls.push_back({x, 1.7f, k});
+    }
+    atoms.balls.push_back({Vec3d(40.0, 0.0, 0.0), 1.7f, 4});
+    EXPECT_EQ(gradientsOf(atoms, SurfaceSpec()).besideGap, (std::vector<char>{1, 1, 1, 1, 0}));
+    atoms.balls.erase(atoms.balls.begin());
+    EXPECT_EQ(gradientsOf(atoms, SurfaceSpec()).besideGap, (std::vector<char>{0, 0, 0, 0}));
+}
+
 TEST(SmoothForces, AreRefusedWhereNothingKnowsThem)
 {
     SurfaceSpec fronts, walls, filled, gaussian;
