@@ -12,10 +12,16 @@ import vdb_molsurf as ms
 from conftest import ROOT
 from vdb_molsurf import _options
 
-# Options of `build` that set no member of the library's options: files, frames, pictures, the run.
-COMMAND_LINE = {"output", "format", "force", "weld", "frames", "first-frame", "fps", "fog-density", "trajectory", "update-selections", "lod", "groups", "crisp", "walls", "areas",
-                "contacts", "for", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale", "min-wall", "size", "turntable", "memory", "max-hours",
-                "dry-run", "require", "skip-existing", "threads", "quiet", "verbose", "no-progress", "config", "help", "help-all", "version", "list-radii"}
+# Options of files, terminals and machines, which a module has no use for.
+OF_A_PROGRAM = {"output", "format", "force", "memory", "max-hours", "dry-run", "require", "skip-existing", "threads", "quiet", "verbose",
+                "no-progress", "config", "help", "help-all", "version", "list-radii"}
+# Options that Python has in another form: groups=, table(), contacts, to_vdb(scene=), picture(width, turn=), and for trajectories
+# the molecules of MDAnalysis and MDTraj, one surface a frame.
+OTHERWISE = {"groups", "areas", "contacts", "for", "size", "turntable", "frames", "first-frame", "trajectory", "update-selections"}
+# What Python lacks.
+MISSING = {"weld", "fps", "fog-density", "lod", "crisp", "walls", "apbs-grid", "pdie", "sdie", "ion-conc", "center", "print-scale",
+           "min-wall"}
+COMMAND_LINE = OF_A_PROGRAM | OTHERWISE | MISSING
 
 
 def options_of_build():
