@@ -196,6 +196,12 @@ class Frames(ToolTest):
                 self.assertLess(max(abs(a - b) for a, b in zip(item.value, (way, 0, 0))), 1e-3 * way)
             self.assertEqual(v["unit"], unit)
         self.assertIn("timeCodesPerSecond = 24\n", (self.folder / "a.usda").read_text())
+        # Deep in the fog, too, which a little motion does not reach from the surface.
+        (self.folder / "t.dcd").write_bytes(dcd(self.moved(2, 0.25)))
+        self.check(0, CRAMBIN, "--voxel", "0.5", "--trajectory", "t.dcd", "--fields", "v,density", "-o", "b.vdb")
+        fog, v = (pyopenvdb.read(str(self.folder / "b.0001.vdb"), name) for name in ("density", "v"))
+        there = v.getConstAccessor()
+        self.assertTrue(all(there.isValueOn(item.min) for item in fog.citerOnValues()))
 
     def test_first_frame(self):
         words = (NMR, *FAST, "--frames", "2-3", "--first-frame", "1001", "--for", "usd", "-o", "a.vdb", "-o", "a.csv")
