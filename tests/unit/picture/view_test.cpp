@@ -60,7 +60,7 @@ TEST(View, TurnsOnce)
 TEST(View, ShowsThePlacesOfNotes)
 {
     Mesh mesh;
-    test::addBall(mesh, {3.0f, 4.0f, 0.0f}, 2.0f, {1, 2, 3});
+    test::addBall(mesh, {3.0f, 4.0f, 10.0f}, 2.0f, {1, 2, 3});
     DrawOptions options;
     lookFrom({0.0, 0.0, 1.0}, options);
     const View plain = chooseView(mesh, options);
