@@ -149,5 +149,41 @@ TEST(Specks, APieceThatIsCutOpenStays)
     EXPECT_EQ(mesh.triangles.size(), 1u);
 }
 
+// Three tetrahedra, a part each: what stays keeps its values, its part and its corners.
+TEST(RemovePieces, LeavesPartsAndValuesOfOthers)
+{
+    Mesh mesh;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        mesh.parts.push_back({std::string(1, char('a' + k)), mesh.triangles.size()});
+        const std::uint32_t v = 4 * k;
+        for (const Vec3f& x : {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, 0, 1)})
+            mesh.positions.push_back(x + Vec3f(3.0f * float(k), 0.0f, 0.0f));
+        mesh.triangles.insert(
+            mesh.triangles.end(),
+            {{v, v + 2, v + 1}, {v, v + 1, v + 3}, {v, v + 3, v + 2}, {v + 1, v + 2, v + 3}});
+    }
+    mesh.normals = mesh.positions;
+    mesh.scalars.push_back({"x", {}});
+    for (const Vec3f& p : mesh.positions) mesh.scalars[0].values.push_back(p[0]);
+    const MeshPieces pieces = piecesOf(mesh);
+    ASSERT_EQ(pieces.measures.size(), 3u);
+    for (std::uint32_t away = 0; away < 3; ++away) {
+        Mesh left = mesh;
+        std::vector<char> gone(3, 0);
+        gone[pieces.of[4 * away]] = 1;
+        EXPECT_EQ(removePieces(pieces, gone, left).size(), 8u);
+        ASSERT_EQ(left.positions.size(), 8u);
+        ASSERT_EQ(left.triangles.size(), 8u);
+        ASSERT_EQ(left.parts.size(), 3u);
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(left.parts[k].firstTriangle, 4 * (k - (k > away))) << away;
+            if (k == away) continue;
+            const std::uint32_t first = left.triangles[left.parts[k].firstTriangle][0];
+            EXPECT_EQ(left.positions[first][0], 3.0f * float(k));
+            EXPECT_EQ(left.scalars[0].values[first], 3.0f * float(k));
+        }
+    }
+}
+
 } // namespace
 } // namespace molsurf::test
