@@ -53,9 +53,9 @@ PlannedBrick costOfMesh(std::size_t bytes, bool flat);
 PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b);
 
 /// Cost of drawing a surface, without that of making it.
-/// @param[in] voxels    of the surface
-/// @param[in] width     of the picture [pixel]
-/// @param[in] isLayered whether what is behind the nearest wall is seen, too
+/// @param[in] voxels     of the surface
+/// @param[in] width      of the picture [pixel]
+/// @param[in] isLayered  whether what is behind the nearest wall is seen, too
 PlannedBrick costOfPicture(std::size_t voxels, int width, bool isLayered);
 
 /// Cost of finding the pockets of a surface, if its options ask for them. The memory is that of the

@@ -11,8 +11,7 @@ namespace molsurf
 {
 
 /// Finds the gaps of a sum, decides them by decideGaps(), and makes the bumps of holdGaps().
-/// @param[in]  psi     of the sum where bounds do not decide its sign, as GaussianSum::band() has
-/// it
+/// @param[in]  psi     of the sum where bounds do not decide its sign: see GaussianSum::BumpsFor
 /// @param[out] report  how they were decided, and what the field closes if the rule says so
 /// @return for GaussianSum::band()
 Bumps bumpsOfGaps(const GaussianSum& sum, const SparseField& psi, const GapRule& rule,

@@ -14,7 +14,7 @@
 namespace molsurf
 {
 
-/// Where what lies deeper than a level may be a thin wall or neck, as voxels tell.
+/// Where what lies deeper than a level may be a thin wall or neck, by the seeds of voxels.
 struct ThinPlace {
     std::vector<openvdb::Vec3d> sheets; ///< closest points on the two or three sheets of the
                                         ///< interface that it lies between

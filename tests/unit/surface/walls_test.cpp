@@ -2,6 +2,7 @@
 #include "molsurf/topology/walls.h"
 #include "support/fields.h"
 #include "support/motion.h"
+#include "support/rings.h"
 #include "support/runs.h"
 
 #include <gtest/gtest.h>
@@ -20,20 +21,8 @@ namespace
 
 using openvdb::Vec3d;
 
-constexpr double probe = 1.4, radius = 1.7, R = radius + probe;
-constexpr double C = M_LN2 / (0.5 * R); // of the default tolerance
-
-/// Atoms in a ring about the origin, in the middle of which psi = 0 lies `depth` above and below.
-std::vector<Vec3d> ring(int atoms, double depth)
-{
-    const double around = std::sqrt(R * R - depth * depth + std::log(double(atoms)) / C);
-    std::vector<Vec3d> out;
-    for (int i = 0; i < atoms; ++i) {
-        const double angle = 2.0 * M_PI * i / atoms;
-        out.emplace_back(around * std::cos(angle), around * std::sin(angle), 0.0);
-    }
-    return out;
-}
+constexpr double probe = test::ringProbe, radius = test::ringRadius, R = test::ringRim,
+                 C = test::ringRate;
 
 std::vector<Ball> ballsAt(const std::vector<Vec3d>& centres, const test::Motion& move)
 {
@@ -60,7 +49,7 @@ TEST(Walls, OfARingAreOpenOrClosedInAllPoses)
     for (const int atoms : {5, 6}) {
         for (const double voxel : {0.7, 0.5, 0.3}) {
             for (const double beyond : {-0.08, -0.03, -0.01, 0.01, 0.03, 0.1}) {
-                const std::vector<Vec3d> centres = ring(atoms, probe + thinnestWall + beyond);
+                const std::vector<Vec3d> centres = test::ring(atoms, probe + thinnestWall + beyond);
                 for (int pose = 0; pose < 3; ++pose) {
                     EXPECT_EQ(eulerNumberOf(ballsAt(centres, test::randomMotion(random)), voxel),
                               beyond > 0.0 ? 2 : 0)
@@ -76,7 +65,7 @@ TEST(Walls, AreCountedInTheReport)
 {
     std::mt19937 random(29);
     for (const double beyond : {-0.05, -0.02, 0.02, 0.05}) {
-        const std::vector<Vec3d> centres = ring(6, probe + thinnestWall + beyond);
+        const std::vector<Vec3d> centres = test::ring(6, probe + thinnestWall + beyond);
         SurfaceOptions options;
         const Report report =
             test::runOn(ballsAt(centres, test::randomMotion(random)), options).report;
@@ -119,7 +108,7 @@ TEST(Walls, OpenTheSameInAllPosesOnFineVoxels)
     options.voxel = 0.125;
     double least = std::numeric_limits<double>::max(), most = 0.0;
     for (int pose = 0; pose < poses; ++pose) {
-        const std::vector<Ball> balls = ballsAt(ring(4, 1.44), test::randomMotion(random));
+        const std::vector<Ball> balls = ballsAt(test::ring(4, 1.44), test::randomMotion(random));
         const double area = test::runOn(balls, options).report.surface.area;
         least = std::min(least, area);
         most = std::max(most, area);

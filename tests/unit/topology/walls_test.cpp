@@ -4,6 +4,7 @@
 #include "molsurf/levelset/closest_foot.h"
 #include "molsurf/levelset/seed_kinks.h"
 #include "support/fields.h"
+#include "support/rings.h"
 
 #include <gtest/gtest.h>
 
@@ -20,20 +21,7 @@ namespace
 using openvdb::Mat3d;
 using openvdb::Vec3d;
 
-constexpr double probe = 1.4, rim = 1.7 + probe; // of an atom, with the probe
-constexpr double C = M_LN2 / (0.5 * rim);        // of the default tolerance
-
-/// Atoms in a ring about the origin, in the middle of which psi = 0 lies `depth` above and below.
-std::vector<Vec3d> ring(int atoms, double depth)
-{
-    const double around = std::sqrt(rim * rim - depth * depth + std::log(double(atoms)) / C);
-    std::vector<Vec3d> out;
-    for (int i = 0; i < atoms; ++i) {
-        const double angle = 2.0 * M_PI * i / atoms;
-        out.emplace_back(around * std::cos(angle), around * std::sin(angle), 0.0);
-    }
-    return out;
-}
+constexpr double probe = test::ringProbe, rim = test::ringRim, C = test::ringRate;
 
 /// psi of a ring.
 PsiJetAt psiOf(const std::vector<Vec3d>& centres)
@@ -165,7 +153,7 @@ TEST(Walls, AreFoundOnceAndWhereNoOtherSheetIsNearer)
     const double h = 0.5;
     for (const int atoms : {5, 6}) {
         const double depth = 1.45;
-        const PsiJetAt psi = psiOf(ring(atoms, depth));
+        const PsiJetAt psi = psiOf(test::ring(atoms, depth));
         const Vec3d up(0.3, -0.2, depth / h), down(-0.2, 0.4, -depth / h);
         std::vector<ThinPlace> places{{{up, down}, {up, down}}, {{down, up}, {}}};
         const std::vector<Decision> walls = decideWalls(psi, places, probe, h, Progress());
