@@ -30,7 +30,8 @@ std::string lettered(char letter)
     return letter == '\0' || letter == ' ' ? "" : std::string(1, letter);
 }
 
-/// Sums of rounded areas are those of the whole to some 1e-10, and no digit is noise.
+/// Rounds to 13 significant digits. Those after them are noise of summation; sums of the rounded
+/// areas still are that of the whole to some 1e-10.
 double digitsThatHold(double number)
 {
     char text[32];
@@ -95,7 +96,7 @@ Numbers sumsOf(const BallNames& names, const Numbers& values)
 }
 
 /// Adds the mean of a value over each residue's part of the surface, and its integral.
-/// @param[in] balls  numbers of each residue's; those with none are left out
+/// @param[in] balls  how many own balls each residue has; residues with 0 have no row
 void addValues(const BallSet& atoms, const Counts& balls, const MolecularSurface& result,
                Table& table)
 {
@@ -118,8 +119,10 @@ void addValues(const BallSet& atoms, const Counts& balls, const MolecularSurface
     table.columns.push_back({"integral_" + name + "_A2", std::move(integral)});
 }
 
-/// Adds the depths of residues, and of their CA.
-/// @param[in] balls  numbers of each residue's; those with none are left out
+/// Adds the mean depth of each residue's balls, and the depth of its alpha carbon, or NaN. (A
+/// calcium ion is named CA, too, but is no carbon.)
+/// @param[in] depths  of the balls [Å]
+/// @param[in] balls   as of addValues()
 void addDepths(const BallSet& atoms, const Numbers& depths, const Counts& balls, Table& table)
 {
     constexpr std::uint8_t carbon = 6;
@@ -275,7 +278,7 @@ Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurf
         if (a == b) continue;
         Sum& sum = sums[{std::min(a, b), std::max(a, b)}];
         sum.area += contact.area;
-        sum.distance = contact.distance;
+        sum.distance = contact.distance; // for atoms only, of which a pair has one facet
     }
     Table table{"contacts", {}};
     for (const int side : {0, 1}) {
@@ -321,6 +324,7 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     Numbers alone, together, buried, area;
     std::array<Numbers, 4> fits;
     for (const Report::Interface& interface : report.interfaces) {
+        // By residue, those of the first group first: the areas alone, and together.
         std::map<std::pair<bool, std::int32_t>, std::pair<double, double>> sums;
         for (const Report::Interface::Buried& b : interface.buried) {
             auto& sum = sums[{!b.ofFirst, names.residueOf[b.ball]}];

@@ -12,8 +12,8 @@
 namespace molsurf
 {
 
-/// Adds columns that say what the areas of a table are of: surface, its kind; probe_A; radii, the
-/// name of their set or file, or "input".
+/// Rounds the numbers of a table to 13 digits, and adds columns with the origin of its areas:
+/// surface, its kind; probe_A; radii, the name of their set or file, or "input".
 /// @param[in] probe  radius [Å]
 void addOrigin(const BallSet& atoms, const std::string& kind, double probe, Table& table);
 

@@ -15,7 +15,7 @@ namespace molsurf
 std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                              const std::vector<Decay>& decays)
 {
-    std::vector<double> slopes;
+    std::vector<double> slopes; // psi = C (R^2 - r^2) has the slope 2 C R at r = R
     slopes.reserve(balls.size());
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const double R = balls[i].radius + options.probe;
@@ -25,8 +25,9 @@ std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptio
     return slopes;
 }
 
-// The slopes of the balls, at each voxel weighted by their terms of the sum: psi of the sum with
-// the slopes as factors, less psi.
+// The mean of the balls' slopes s_i, at each voxel weighted by their terms e_i of the sum. As psi
+// is ln sum e_i, the mean is most exp(psi' - psi), where psi' has the terms e_i s_i / most: levels
+// raised by ln(s_i / most).
 SlopeField slopeField(const BallSet& atoms, const SurfaceSpec& spec,
                       const std::optional<GaussianExtent>& extent, const PsiOnLeaves& psi,
                       const Bumps& bumps, const Progress& progress)

@@ -30,7 +30,8 @@ namespace
 /// The edges that do not have two triangles which run through them in opposite directions.
 std::vector<std::array<std::uint32_t, 2>> badEdges(const Mesh& mesh)
 {
-    std::vector<std::array<std::uint32_t, 3>> edges; // the lower end, the higher one, upward
+    // The lower end, the higher one, and whether its triangle runs from the lower to the higher.
+    std::vector<std::array<std::uint32_t, 3>> edges;
     edges.reserve(3 * mesh.triangles.size());
     for (const auto& t : mesh.triangles) {
         for (int k = 0; k < 3; ++k) {
@@ -74,6 +75,7 @@ void checkMesh(const Mesh& mesh, const SurfaceReport& report, double voxel,
             "%.2f, %.2f) Å",
             edges.size(), double(x[0]), double(x[1]), double(x[2])));
     }
+    // A closed piece with g handles has the Euler number 2 - 2 g.
     const int pieces = report.components + int(report.cavities.size());
     const int chi = report.meshEulerCharacteristic;
     if (chi % 2 != 0 || chi > 2 * pieces)

@@ -11,8 +11,9 @@ namespace molsurf
 namespace
 {
 
-/// As meshTolerance() of a union: a crease takes up to h of area for its length, on either side;
-/// and a face of radius r, where another sheet of the surface may be nearer than a voxel, h A/r.
+/// The bounds of meshTolerance() with the creases and faces of the solvent-excluded surface. Toric
+/// and concave faces bend by the probe radius. A contact face of a ball of radius r = R - probe has
+/// the share (r/R)^2 of the area A of its patch, so its A/r is A r/R^2.
 MeshTolerance excludedTolerance(const BallBoundary& boundary, const BoundaryMeasure& measure,
                                 const ExcludedMeasure& excluded, double probe, double voxel)
 {

@@ -112,7 +112,7 @@ double farthest(const openvdb::CoordBBox& box, const Pose& pose, double voxel)
     double most = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         Vec3d x;
-        for (int a = 0; a < 3; ++a)
+        for (int a = 0; a < 3; ++a) // bit a of the corner: its end of axis a
             x[a] = voxel * double((corner >> a & 1 ? box.max() : box.min())[a]);
         const Vec3d placed = openvdb::math::Abs(pose.toWorld(x));
         most = std::max({most, placed[0], placed[1], placed[2]});
@@ -153,7 +153,8 @@ void checkValues(const FloatGrid& grid, Iterator it)
     }
 }
 
-/// Whether a spline has the signs of a level set, some voxels from zero: one a leaf is asked.
+/// Whether a spline has the signs of a level set. Compares one voxel a leaf, at least a voxel from
+/// zero (or half of the band's width, if that is less): nearer the signs may differ by rounding.
 bool fits(const Spline& spline, const FloatGrid& levelSet)
 {
     const double voxel = levelSet.voxelSize()[0], most = double(levelSet.background());
@@ -227,6 +228,7 @@ void sayIfRounded(double rounding, std::vector<std::string>& warnings)
 Spline splineThrough(const FloatGrid& grid, const Progress& progress)
 {
     SparseField given = fromGrid(grid);
+    // Values at the ends of the band are cut off, and no distances: those voxels are not known.
     const float full = std::abs(grid.background()) * (1.0f - 1e-6f);
     for (std::size_t n = 0; n < given.table.size(); ++n)
         given.table.active(n) &= within(given.leaf(n), full);

@@ -55,6 +55,7 @@ struct SurfaceDistance::Parts {
         std::int32_t at(const Vec3d& x, double& gap) const
         {
             constexpr double none = std::numeric_limits<double>::infinity();
+            // A search that widens: all balls with a gap up to `reach` are seen, and some others.
             for (double reach = 1.0;; reach *= 4.0) {
                 std::int32_t best = -1;
                 gap = none;

@@ -146,12 +146,13 @@ std::vector<Legend> legendsOf(const std::vector<DrawnSurface>& surfaces, const P
 namespace
 {
 
-/// One direction for all panels but those that have their own, and one scale. Each panel shows the
-/// middle of its structure, unless its options say what it shows.
+/// Gives all panels the view direction of the first, but those with an eye of their own, and one
+/// frame size, the largest that any needs. Each panel shows the middle of its structure, unless its
+/// options say what it shows.
 void shareCamera(const std::vector<DrawnSurface>& surfaces, std::vector<DrawOptions>& shots)
 {
     DrawOptions level = shots[0];
-    level.turn = 0.0;
+    level.turn = 0.0; // each panel turns from there by its own options
     const auto axes = viewAxes(surfaces[0].mesh, level);
     PictureFrame largest{openvdb::Vec3d(0.0), 0.0, 0.0};
     std::vector<openvdb::Vec3d> centers;

@@ -95,7 +95,8 @@ FieldRow groupField()
     });
 }
 
-/// Colours in linear light; those of curvatures are made of the whole.
+/// Colours in linear light. Curvatures have no colours of balls: the caller of the run makes these
+/// of the grid of the curvature (curvatureColors()).
 FieldRow colorField()
 {
     FieldRow row = fromBalls("Cd", 3, [](FieldSource& from) -> GridBase::Ptr {

@@ -16,8 +16,9 @@ namespace molsurf
 namespace
 {
 
-/// Finds the voxels that can be reached from seeds by steps to face neighbours within a set of
-/// voxels.
+/// Flood fill: the voxels that can be reached from seeds by steps to face neighbours within a set
+/// of voxels. A queue has the leaves that may grow. Each is filled as far as its neighbours are
+/// now, and queues these again if it grew.
 ///
 /// @param[in] allowed  the set, one mask a leaf of the table
 /// @param[in] seeds    one mask a leaf; those outside the set count for nothing
@@ -26,7 +27,7 @@ std::vector<LeafMask> connectedTo(const LeafTable& table, const std::vector<Leaf
                                   const std::vector<LeafMask>& seeds)
 {
     std::vector<LeafMask> reached(table.size());
-    std::deque<std::size_t> queue; // leaves that may grow
+    std::deque<std::size_t> queue;
     std::vector<bool> queued(table.size(), false);
     const auto enqueue = [&](std::size_t n) {
         if (queued[n]) return;
@@ -79,8 +80,9 @@ std::vector<LeafMask> cavityVoxels(const Mesh& mesh, const SparseField& S, const
     const std::vector<std::uint32_t> pieces = connectedPieces(mesh, count, progress);
     const std::vector<double> volumes = pieceVolumes(mesh, pieces, count);
 
-    // Outer voxels of S in front of the walls, then all that hang together with them. Those that
-    // hang together with the outer surface, where a wall is thinner than a voxel, are no cavity.
+    // Two flood fills of S >= 0, from the corners of vertices' cells on the side of the normals: of
+    // cavities, whose pieces have a negative volume, and of outer surfaces. Voxels that both reach,
+    // where a wall is thinner than a voxel, are no cavity.
     std::vector<LeafMask> positive(S.table.size()), walls(S.table.size()), skin(S.table.size());
     for (std::size_t n = 0; n < S.table.size(); ++n) {
         positive[n] = ~lessThan(S.leaf(n), 0.0f);
@@ -127,7 +129,8 @@ void fillInCarrier(const std::vector<LeafMask>& cavities, const LeafTable& S, Sp
     SparseField phi = copied(carrier);
     reinitialize(phi, width, 2 * bandWidthVox, progress);
     fillInLevelSet(cavities, S, phi, progress);
-    // Where the interface is no longer near, voxels are as far from it as the distance says.
+    // The carrier keeps its values beside the interface. Farther than a voxel from the new one its
+    // size becomes at least leastShare (|distance| - h), so that a filled cavity leaves no zero.
     parallelFor(phi.table.size(), progress, [&](std::size_t n) {
         for (int v = 0; v < leafSize; ++v) {
             const float distance = phi.leaf(n)[v], side = distance < 0.0f ? -1.0f : 1.0f;
@@ -142,6 +145,7 @@ void fillInDistance(const std::vector<LeafMask>& cavities, SparseField& S, const
 {
     SparseField filled = copied(S);
     fillVoxels(cavities, splineWidthVox * S.voxelSize, filled, progress);
+    // Its band changes on both sides of a wall that is gone; all other values stay as they are.
     LeafTable about = S.table;
     for (std::size_t n = 0; n < about.size(); ++n) about.active(n) = cavities[n];
     about = dilated(about, 2 * int(splineWidthVox), Spread::Ball, progress);

@@ -101,9 +101,9 @@ struct Side {
     ExcludedPoints trimmed;
 };
 
-/// @param[in] boundary  of the balls near the other group. (A probe that would run into another
-/// ball
-///                      of theirs is farther than the rim's width from any buried point.)
+/// Samples the solvent-excluded surface by points, and keeps those that the other group buries.
+/// @param[in] boundary  of the balls of this group near the other one. (A probe that would run into
+///                      a ball farther away is beyond the rim's width from any buried point.)
 Side sideOf(const BallBoundary& boundary, const BallIndex& other, const Progress& progress)
 {
     const ExcludedPoints all = excludedPoints(boundary, fitProbe, density, progress);
@@ -125,7 +125,7 @@ Side sideOf(const BallBoundary& boundary, const BallIndex& other, const Progress
     return side;
 }
 
-/// The value that half of the weight does not exceed.
+/// The weighted median: the least value that, with those below it, has half of the weight.
 /// @param[in] values  with their weights, at least one
 double medianOf(std::vector<std::pair<double, double>> values)
 {
@@ -176,6 +176,7 @@ Report::Interface::Fit fitOf(const std::vector<Ball>& first, const std::vector<B
     both.insert(both.end(), b.begin(), b.end());
     const BallBoundary ofA = ballBoundary(a, fitProbe, progress),
                        ofB = ballBoundary(b, fitProbe, progress);
+    // The gap is inside the surface of both together, and outside that of each by itself.
     fit.gapVolume = volumeOf(ballBoundary(both, fitProbe, progress), progress) -
                     volumeOf(ofA, progress) - volumeOf(ofB, progress);
     const Side sideA = sideOf(ofA, secondIndex, progress),

@@ -110,7 +110,7 @@ void FrameSource::chooseModels(const FrameRange& range)
         return std::any_of(models.begin(), models.end(),
                            [=](const Model& m) { return m.number == number; });
     };
-    if (range.last == 0) {
+    if (range.last == 0) { // to the end: every step-th model there is, whatever their numbers
         if (range.first > 1 && !has(range.first)) missing(range.first, there);
         int passed = 0;
         for (const Model& model : models)
@@ -177,6 +177,7 @@ const BallSet& FrameSource::balls(std::size_t i)
                                           " atoms as in frame " + std::to_string(number(0)) +
                                           ", got " + std::to_string(selection.balls.size()));
     keepColors(selection);
+    // The two before it stay, for displacement().
     loaded_.erase(loaded_.begin(), loaded_.lower_bound(i > 2 ? i - 2 : 0));
     return loaded_.emplace(i, std::move(selection)).first->second;
 }

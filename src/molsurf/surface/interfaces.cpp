@@ -43,7 +43,8 @@ Areas areasOf(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls, Progr
     return {made.report.surface.area, std::move(made.ballAreas)};
 }
 
-/// Areas that two groups bury of each other's balls.
+/// Areas that two groups bury of each other's balls. As both lists and the balls of `together` are
+/// ascending, it steps through the two lists as a merge does.
 /// @param[in] groups    indices of their balls, ascending
 /// @param[in] alone     areas of each group alone
 /// @param[in] together  of both, the balls in ascending order
@@ -77,11 +78,11 @@ std::vector<std::size_t> merged(const std::vector<std::size_t>& a,
     return out;
 }
 
-/// Groups with their images: those that a motion makes are behind those that the one before it
-/// makes, and the unit's own are the first. Without a unit there are no others.
+/// Groups and their images. Group g, moved by motion m of a unit, is the member m * groups + g: the
+/// first are the unit's own (motion 0), and without a unit there are no others.
 struct Members {
-    std::vector<std::int32_t> of;                ///< of each ball: its group's, or -1
-    std::vector<std::vector<std::size_t>> balls; ///< of each
+    std::vector<std::int32_t> of;                ///< member of each ball, or -1
+    std::vector<std::vector<std::size_t>> balls; ///< of each member
 };
 
 Members membersOf(const BallSet& atoms)
@@ -146,7 +147,9 @@ void measureInterfaces(const BallSet& atoms, const SurfaceSpec& spec, bool ofBal
             tick();
             const std::size_t member = std::size_t(other), m = member / groups.size(),
                               b = member % groups.size();
-            // The inverse motion makes the same pair of b and a.
+            // Group a and image m of b are, by the inverse motion, b and image `back` of a: only
+            // one of the two counts. If they are the same the pair mirrors itself, and the whole
+            // has it half as often.
             const std::size_t back = m == 0 ? 0 : placement.unit->inverse[m];
             if (b < a || (b == a && back < m) || member == a) continue;
             const auto &own = members.balls[a], &its = members.balls[member];

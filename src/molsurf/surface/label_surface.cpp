@@ -54,7 +54,8 @@ std::vector<double> areasBy(const Labels& nearest, const BallSet& atoms, const M
     return scaled(std::move(areas), whole);
 }
 
-/// The mean of a scalar over the vertices of each ball, by their shares of the area.
+/// The mean of a scalar over the vertices of each ball, weighted by the area of the triangles at
+/// them; NaN for a ball without a finite value.
 std::vector<double> meansOf(const std::vector<float>& values, const Labels& nearest,
                             const Mesh& mesh, std::size_t balls)
 {
@@ -123,7 +124,8 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Own
     }
 }
 
-/// Labels and colours.
+/// Adds labels, colours and the grids of balls to the result, each of them if it is asked for.
+/// @param[in] known  as of labelSurface()
 Owned label(const BallSet& atoms, const SurfaceOptions& options, std::vector<double> known,
             double reach, Progress& progress, MolecularSurface& result)
 {

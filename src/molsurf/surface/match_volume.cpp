@@ -30,7 +30,9 @@ double volumeOf(const BallSet& atoms, const SurfaceSpec& spec, const Progress& p
     }
 }
 
-/// The level at which some balls of one rate enclose a volume.
+/// The level at which some balls of one rate enclose a volume: a bracket by doubling, then regula
+/// falsi, kept off the ends of the bracket. The zero is that of the cube root of the volume's ratio
+/// less 1, since radii follow the level evenly; three times that is the error of the volume.
 double findLevel(BallSet atoms, double wanted, const SurfaceSpec& spec, const Progress& progress)
 {
     const auto excess = [&](double level) {

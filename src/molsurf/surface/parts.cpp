@@ -120,7 +120,9 @@ void add(std::optional<T>& sum, const std::optional<T>& part)
         sum.reset();
 }
 
-/// Adds all but the statistics of curvature.
+/// Adds all but the statistics of curvature. Shares are means over vertices. At the first part,
+/// when the sum has no vertices, kind and flags are set, and numbers that may be unknown begin
+/// at 0.
 void add(SurfaceReport& sum, const SurfaceReport& part)
 {
     const auto smooth = [](const SurfaceReport& s) {
@@ -253,7 +255,7 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
                          return a.volume > b.volume;
                      });
     const std::vector<float> areas = vertexAreas(whole.mesh, progress);
-    SurfaceReport& surface = whole.report.surface;
+    SurfaceReport& surface = whole.report.surface; // the first scalars are H and K
     surface.meanCurvature = statistics(whole.mesh.scalars[0].values, areas);
     surface.gaussianCurvature = statistics(whole.mesh.scalars[1].values, areas);
     return whole;

@@ -170,7 +170,8 @@ PictureSetting noteSetting(const char* name, const char* value, const char* text
 
 NoteText labelText(const std::string& text)
 {
-    // Selections may have an =, and so may texts.
+    // The text of a place begins after the first =. That of a selection, which may have one itself,
+    // begins after the last.
     const std::size_t first = text.find('='), last = text.rfind('=');
     const bool ofPlace = bool(placeIn(std::string(trimmed(text.substr(0, first)))));
     const std::size_t equals = ofPlace ? first : last;

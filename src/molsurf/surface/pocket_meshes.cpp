@@ -27,8 +27,9 @@ std::vector<std::vector<Coord>> voxelsOf(const openvdb::Int32Grid& ids, std::siz
     return out;
 }
 
-/// A field that is negative in one pocket. Where another one begins its room ends: between two
-/// voxels, as far from each as they have room.
+/// A field whose zero set is the boundary of one pocket: minus the room at its voxels, and the size
+/// of the room at their 26 neighbours. It is 0 at the wall, where the room is, and between voxels
+/// of two pockets, at a place by the ratio of their rooms.
 openvdb::FloatGrid::Ptr insideOf(const std::vector<Coord>& own, std::int32_t id,
                                  const openvdb::Int32Grid& ids, const openvdb::FloatGrid& rooms)
 {
@@ -47,7 +48,7 @@ openvdb::FloatGrid::Ptr insideOf(const std::vector<Coord>& own, std::int32_t id,
     return out;
 }
 
-/// Adds the zero set of a field.
+/// Meshes the zero set of a field, and adds it. Quads are cut along their shorter diagonal.
 void addBody(const openvdb::FloatGrid& field, Mesh& mesh)
 {
     openvdb::tools::VolumeToMesh mesher;

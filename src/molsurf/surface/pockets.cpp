@@ -17,8 +17,9 @@ namespace molsurf
 namespace
 {
 
-/// The number of the pocket that a point of the surface is a wall of, or 0: that of most of the
-/// voxels about the nearest place before it that has any.
+/// The number of the pocket that a point of the surface is a wall of, or 0. Steps out along the
+/// normal to the first place where any of the 8 voxels about it is a pocket's; the pocket that most
+/// of them have wins.
 std::int32_t pocketBefore(const openvdb::Int32Grid& ids, const openvdb::Vec3d& x,
                           const openvdb::Vec3d& normal)
 {

@@ -39,7 +39,8 @@ Mesh poreTube(const Report::Pore& pore)
     openvdb::Vec3d across(0.0);
     for (const Report::Pore::Station& station : pore.stations) {
         const openvdb::Vec3d normal = vectorOf(station.normal);
-        // The first direction turns as little as it can from ring to ring.
+        // Parallel transport: the last ring's first direction, made normal to this one's axis. So
+        // rings do not twist.
         across -= normal * normal.dot(across);
         if (!(across.lengthSqr() > 1e-6)) across = perpendicular(normal)[0];
         across.normalize();
@@ -59,7 +60,7 @@ Mesh poreTube(const Report::Pore& pore)
             mesh.triangles.push_back({a, b + sides, a + sides});
         }
     }
-    for (const bool last : {false, true}) {
+    for (const bool last : {false, true}) { // the ends: fans of triangles about their middles
         const Report::Pore::Station& end = last ? pore.stations.back() : pore.stations.front();
         const std::uint32_t middle = std::uint32_t(mesh.positions.size());
         const std::uint32_t first = last ? (rings - 1) * sides : 0;

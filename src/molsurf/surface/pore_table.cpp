@@ -21,7 +21,7 @@ double Report::Pore::conductance() const
 {
     constexpr double pi = 3.14159265358979323846;
     if (narrowest() <= 0.0) return 0.0;
-    double sum = 0.0; // of ds / (pi r^2) [1/Å]
+    double sum = 0.0; // integral of ds / (pi r^2) by the trapezoidal rule [1/Å]
     const auto inverse = [](const Station& s) { return 1.0 / (pi * s.radius * s.radius); };
     for (std::size_t i = 1; i < stations.size(); ++i)
         sum += 0.5 * (inverse(stations[i]) + inverse(stations[i - 1])) *

@@ -19,7 +19,8 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The balls, turned about their middle and shifted.
+/// The balls, turned about their middle and shifted. Axis and shift are arbitrary, so that nothing
+/// lies on the grid as before.
 /// @param[in] angle  [rad]
 BallSet turned(const BallSet& atoms, double angle)
 {

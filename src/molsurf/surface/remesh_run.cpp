@@ -36,7 +36,9 @@ std::vector<double> extentsOf(const Mesh& mesh, const MeshPieces& pieces)
     return out;
 }
 
-/// @return of each vertex, whether its piece is too small
+/// Finds the pieces that are too small for triangles of the size that is asked for. They are
+/// counted in MeshShape::keptPieces, and a warning is added.
+/// @return of each vertex, whether its piece is one
 std::vector<char> keptVertices(const SurfaceOptions& options, const Mesh& mesh,
                                const MeshPieces& pieces, MeshShape& shape,
                                std::vector<std::string>& warnings)

@@ -20,8 +20,7 @@ namespace molsurf
 /// Closed pieces that are less than five edges across stay as they are, and one warning names them.
 ///
 /// @param[in,out] mesh  closed, a manifold, without labels and colours; its scalars are the mean
-/// and
-///                      the Gaussian curvature
+///                      and the Gaussian curvature
 /// @throws Error(ErrorKind::Check) if the pieces do not keep their Euler numbers
 void remeshSurface(const SurfaceOptions& options, const Spline& spline, const Progress& progress,
                    Mesh& mesh, Report& report);

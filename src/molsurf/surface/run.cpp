@@ -85,7 +85,8 @@ WholeSurface run(const BallSet& atoms, const SurfaceOptions& options, Progress& 
     return runWhole(atoms, options, progress);
 }
 
-/// Makes the surface with the colours of curvatures, for which it needs their grid.
+/// Makes the surface. If a grid shows its colours and these are of a curvature, the grid of that is
+/// made, too, and Cd of it; one that was not asked for (`helps`) is taken out again.
 WholeSurface colored(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     const bool asked = std::any_of(options.fields.begin(), options.fields.end(),

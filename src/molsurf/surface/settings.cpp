@@ -363,7 +363,7 @@ std::vector<Setting> meshSettings()
                                      MOLSURF_OF(options.meshEdge));
     const auto set = density.set;
     density.set = [=](Settings& s, const Values& values) {
-        set(s, values);
+        set(s, values); // meshEdge is N until below
         // Equal triangles of edge L, two a vertex, have an area of sqrt(3)/4 L^2 each.
         // measured: a ball with edges of 0.3, 0.5 and 1 Å gets 1.11, 1.25 and 1.12 times as many,
         // 1CRN and 4AT1 with 0.8 and 0.5 Å 1.18 and 1.28 times.

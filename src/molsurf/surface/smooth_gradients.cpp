@@ -25,7 +25,8 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// A term of the sum at a point: its share p of it, and u = 2 C (x - x_i).
+/// A term of the sum at a point: its share p of it, and u = 2 C (x - x_i). So grad psi is minus the
+/// mean of u, and its Hessian the mean of u u - 2 C, less mean times mean.
 struct Share {
     std::int32_t ball;
     double p, rate; ///< rate: C [1/Å^2]
@@ -38,12 +39,13 @@ struct PointTerms {
     Vec3d mean{0.0};              ///< of u
     Mat3d square = Mat3d::zero(); ///< of u u - 2 C
 
+    /// Makes the shares by softmax, without terms of less than e^-negligible of the largest.
     void find(const GaussianSum& sum, const Vec3d& x)
     {
         shares.clear();
         double top = -1e30, total = 0.0;
         sum.forEachTerm(x, [&](std::int32_t ball, double exponent, double rate, const Vec3d& way) {
-            shares.push_back({ball, exponent, rate, 2.0 * rate * way});
+            shares.push_back({ball, exponent, rate, 2.0 * rate * way}); // p: the exponent, for now
             top = std::max(top, exponent);
         });
         const auto isSmall = [&](const Share& s) { return s.p < top - double(negligible); };
@@ -74,7 +76,8 @@ public:
     {
     }
 
-    /// d(psi - v)/dx_i of a term [1/Å].
+    /// d(psi - v)/dx_i of a term [1/Å] by the chain rule: v depends on the slope a = |grad psi|,
+    /// the second derivative m = N.Hess psi N and the curvature kappa = (m - trace Hess psi)/a.
     Vec3d of(const Share& s) const
     {
         const Vec3d& N = up_;
@@ -123,7 +126,8 @@ struct Interface {
     }
 };
 
-/// The point of the interface along the normal of the surface at one of its points.
+/// The point of the interface along the normal of the surface at one of its points, by two Newton
+/// steps from where the offset expects it.
 Vec3d footOf(const Interface& interface, const Vec3d& point, const Vec3d& normal)
 {
     constexpr int steps = 2;
@@ -141,7 +145,8 @@ Vec3d footOf(const Interface& interface, const Vec3d& point, const Vec3d& normal
 /// Derivatives of balls from some nodes.
 using Sums = std::map<std::int32_t, std::pair<Vec3d, Vec3d>>;
 
-/// Adds the motion of a node.
+/// Adds what the motion of a node contributes to the derivatives by the balls that have terms at
+/// its foot. Each x_i moves it by `speed` along the normal, and by p tangentially.
 void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t node,
              PointTerms& terms, Sums& sums)
 {
@@ -171,7 +176,7 @@ void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t no
     }
 }
 
-/// The balls that psi consists of at the places of bumps, where these would change with them.
+/// Marks the balls with a share of psi at the place of a bump, which would change with them.
 std::vector<char> ballsBesideGaps(const GaussianSum& sum, std::size_t balls)
 {
     constexpr double leastShare = 0.05; // of the terms there

@@ -128,8 +128,8 @@ std::vector<Group> readLabels(const std::string& text)
     return labels;
 }
 
-/// Names and colours of the values of a grid of labels; of grids of older files numbers, all in
-/// colours of their own.
+/// Names and colours of the values of a grid of labels. Values of older files, which have no names,
+/// get their numbers, and colours as if each touched all others: then all differ.
 std::vector<Group> labelsOf(const Int32Grid& grid, const openvdb::MetaMap& metadata)
 {
     std::vector<Group> labels = readLabels(textOf(metadata, "label." + grid.getName()));

@@ -261,7 +261,7 @@ void SurfaceRun::distance()
 namespace
 {
 
-/// Replaces S near its zero set by the values of a coarser spline.
+/// Replaces S near its zero set by the values of a coarser spline; only these voxels stay active.
 void resample(SparseField& S, const Spline& spline, const Progress& progress)
 {
     const float width = float(splineWidthVox * S.voxelSize);
@@ -296,7 +296,7 @@ void SurfaceRun::levelSet()
     const double width = surfaceWidthVox * S.voxelSize;
     parallelFor(S.table.size(), progress_,
                 [&](std::size_t n) { S.table.active(n) &= within(S.leaf(n), float(width)); });
-    // Two voxels outward from where sheets of S meet: farther out few of them are still wrong.
+    // Four steps of half a voxel: few values are wrong farther from where sheets of S meet.
     reinitialize(S, width, 4, progress_);
     // A leaf inside the cut, values are those of the whole surface.
     S = clipped(std::move(S), scope_.region.grown(scope_.splineHalo - 1), progress_);
@@ -372,8 +372,8 @@ void SurfaceRun::curvatures()
 
 GradientCounts SurfaceRun::countGradients(const std::vector<float>& slopes)
 {
-    constexpr int kinkVox = 2;
-    constexpr double gradientTolerance = 0.03;
+    constexpr int kinkVox = 2;                 // within this of a kink |grad S| need not be 1
+    constexpr double gradientTolerance = 0.03; // of |grad S| that counts as 1
     const LeafTable nearKinks = dilated(S_.kinks, kinkVox, Spread::Ball, progress_);
 
     constexpr std::size_t chunk = 512;
@@ -503,7 +503,7 @@ void SurfaceRun::remesh()
 openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
 {
     const double width = surfaceWidthVox * options_.voxel;
-    SparseField exact;
+    SparseField exact; // by closest points; none: fronts moved, and their level set is the grid
     const bool evolved = hasFlow(options_.kind);
     if (!evolved) {
         exact = distanceToUnion(unionOf(atoms_.balls, options_.probe, progress_), options_.voxel,

@@ -111,7 +111,9 @@ private:
     }
 
     /// Whether a vertex of the unit's border with a neighbour g may be one of the neighbour's: the
-    /// sheet is the same, and so are all owners there.
+    /// sheet is the same, and so are all owners there. The neighbour's border runs the other way,
+    /// and where the unit has g beyond, the neighbour has the unit, 0. On a two-fold axis a vertex
+    /// may be its own image.
     bool mayBeOne(const Place& own, const Place& its, std::int32_t g) const
     {
         const auto same = [&](std::int32_t ofOwn, std::int32_t ofIts) {
@@ -125,7 +127,7 @@ private:
     }
 
     /// The vertices of the border with a neighbour g, each with the neighbour's vertex, that are
-    /// nearest to each other.
+    /// mutually nearest, within near_.
     Anchors anchorsAt(std::int32_t g) const
     {
         const std::vector<Place> own = placesAt(g), its = placesOf(g);
@@ -186,8 +188,9 @@ private:
         return out;
     }
 
-    /// Glues the parts of the border with a neighbour g between anchors. Both sides get the
-    /// vertices of both.
+    /// Glues the parts of the border with a neighbour g from anchor to anchor. The two chains run
+    /// in opposite directions. Each is split at the places, by share of its length, that the other
+    /// has vertices at; then their edges correspond one to one.
     void glueStrips(std::int32_t g, const Anchors& anchorOf)
     {
         Anchors back;
@@ -222,7 +225,8 @@ private:
         return out;
     }
 
-    /// Splits an edge. @return its second part
+    /// Splits an edge and its triangle. @return its second part
+    /// @param[in] w  where: from 0, its beginning, to 1
     std::uint32_t split(std::uint32_t e, double w)
     {
         const std::uint32_t a = from(e), b = to(e), v = std::uint32_t(mesh_.positions.size());
@@ -244,7 +248,8 @@ private:
         return rest;
     }
 
-    /// Splits edges of a chain at further places. @return the new chain
+    /// Splits edges of a chain at further places between its ends. @return the new chain
+    /// @param[in] places,further  ascending from 0 to 1, as of placesOn()
     Chain subdivided(const Chain& chain, const std::vector<double>& places,
                      const std::vector<double>& further)
     {
@@ -294,7 +299,8 @@ private:
         return out;
     }
 
-    /// All vertices of units that a vertex is one with, itself first.
+    /// All vertices of units that a vertex is one with, itself first: a breadth-first search over
+    /// glued edges.
     std::vector<UnitVertex> classOf(std::uint32_t v) const
     {
         std::vector<UnitVertex> out = {{0, v}};
@@ -366,7 +372,8 @@ private:
         }
     }
 
-    /// The edge of the whole that follows another one around a hole.
+    /// The free edge of the whole that follows another one around a hole: turns about its end, over
+    /// each glued edge into the next unit.
     UnitEdge following(const UnitEdge& e) const
     {
         UnitEdge out{e.unit, edges_[e.edge].next};
@@ -396,7 +403,10 @@ private:
         }
     }
 
-    /// @param[in] turn  the rotation that brings the beginning of the round to its end
+    /// Fills a hole by a fan of triangles about its middle. Each edge of the round, in whatever
+    /// unit, gets its triangle in the frame of that unit, which puts it into the one mesh of all. A
+    /// hole about an axis is the round and its images by the powers of `turn`.
+    /// @param[in] turn  the rotation that brings the beginning of the round to its end; 0: none
     void fillHole(const std::vector<UnitEdge>& round, std::int32_t turn)
     {
         Vec3d middle(0.0), normal(0.0);

@@ -18,8 +18,8 @@ namespace molsurf
 
 /// A border that was fitted.
 struct BorderFit {
-    std::vector<MolecularSurface::SharedVertex>
-        shared;           ///< every vertex of the border, once for each neighbour
+    /// Every vertex of the border, once for each neighbour.
+    std::vector<MolecularSurface::SharedVertex> shared;
     std::size_t open = 0; ///< edges of the border that fit none of a neighbour's
     double filled = 0.0;  ///< area of triangles in the holes that these left [Å^2]
     double largest = 0.0; ///< gap that was closed [Å]

@@ -86,8 +86,10 @@ public:
     }
 
 private:
-    /// Newton's method of least cutSteps for S = 0 and further equations. Where it fails, x stays
-    /// on the border but off the surface.
+    /// Newton's method for S = 0 and one or two further equations, whose values and gradients
+    /// `further` puts in rows 1 and 2. With fewer than three equations J dx = values has many
+    /// solutions, and the shortest is taken: dx = J^T (J J^T)^-1 values. Where it fails, x stays on
+    /// the border but off the surface.
     template<typename F>
     void solve(Vec3d& x, Jet& jet, const F& further)
     {
@@ -187,10 +189,12 @@ std::vector<AddedVertex> crossingsOf(const Mesh& mesh,
     return added;
 }
 
-/// Follows the border, and adds the corners, where the owner beyond changes.
-/// @param[in]     first  number of the first vertex of the border
-/// @param[in,out] added  the vertices of the border
-/// @return the step after each of them
+/// Links the edges of the border. One between vertices with different owners beyond is split, and
+/// its triangle with it, at the corner where these owners meet.
+/// @param[in]     first      number of the first vertex of the border
+/// @param[in,out] added      the vertices of the border: corners come behind
+/// @param[in,out] triangles  of the part
+/// @return the step from each of them
 std::vector<CutStep> followBorder(const std::vector<CutEdge>& borders, std::uint32_t first,
                                   BorderFinder& finder, std::vector<AddedVertex>& added,
                                   std::vector<Triangle>& triangles)
@@ -214,7 +218,8 @@ std::vector<CutStep> followBorder(const std::vector<CutEdge>& borders, std::uint
     return next;
 }
 
-/// The edges of the border, line after line.
+/// The edges of the border, closed line after closed line.
+/// @param[in] next  as of followBorder()
 std::vector<BorderEdge> edgesOf(const std::vector<CutStep>& next, std::uint32_t first)
 {
     std::vector<BorderEdge> out;
@@ -305,7 +310,7 @@ CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& sp
         const std::uint32_t a = t[std::size_t(k)], b = t[std::size_t((k + 1) % 3)],
                             c = t[std::size_t((k + 2) % 3)];
         const std::uint32_t ab = onEdge(a, b), ac = onEdge(a, c);
-        if (count == 1) {
+        if (count == 1) { // the tip at a stays; else the rest, a quad, is cut from c to ab
             borders.push_back({ab, ac, std::uint32_t(triangles.size())});
             triangles.push_back({ab, ac, place[a]});
         } else {

@@ -40,9 +40,8 @@ struct CutMesh {
 /// Cuts out of a mesh what owner 0 has. The vertices of the border lie on S = 0 where the power of
 /// owner 0 is that of another one, corners where it is that of two.
 ///
-/// @param[in] mesh   closed and 2-manifold, with its vertices on S = 0, normals and the scalars
-/// mean
-///                   and Gaussian curvature alone
+/// @param[in] mesh   closed and 2-manifold, with its vertices on S = 0, normals and no scalars but
+///                   mean and Gaussian curvature
 CutMesh cutToOwner(const Mesh& mesh, const PowerOwners& owners, const Spline& spline,
                    const Progress& progress);
 

@@ -17,8 +17,10 @@ using openvdb::Vec3f;
 namespace
 {
 
-/// The vertex that each vertex of each unit is in the whole: that of unit k and vertex v at
-/// k * vertices + v.
+/// The number in the whole of each vertex of each unit: that of unit k and vertex v at
+/// k * vertices + v. New numbers ascend in this order. A shared vertex takes that of the first unit
+/// and place that are the same vertex.
+/// @param[out] count  of the vertices of the whole
 std::vector<std::uint32_t> vertexNumbers(const Placement::Unit& unit,
                                          const std::vector<MolecularSurface::SharedVertex>& shared,
                                          std::size_t vertices, std::size_t& count)
@@ -110,7 +112,7 @@ Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh
     std::vector<std::uint32_t> numbers;
     if (weld) numbers = vertexNumbers(*placement.unit, surface.shared, vertices, count);
 
-    Mesh out;
+    Mesh out; // welded: a vertex is new if its number is the count of those before
     const auto repeat = [&](auto& to, const auto& from) {
         to.reserve(count);
         for (std::size_t k = 0; k < order; ++k) {

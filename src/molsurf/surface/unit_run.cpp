@@ -86,7 +86,10 @@ MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& 
     return result;
 }
 
-/// The connected pieces of the whole: each piece of every unit joined to those that it meets.
+/// The connected pieces of the whole, by union-find: piece p of unit k is k * n + p, and is joined
+/// to the pieces that share a vertex with it.
+/// @param[in] pieceOf  piece of each vertex of the unit
+/// @param[in] pieces   measures of the unit's n pieces
 std::vector<PieceMeasure> wholePieces(const Placement::Unit& unit, const BorderFit& fit,
                                       const std::vector<std::uint32_t>& pieceOf,
                                       const std::vector<PieceMeasure>& pieces)

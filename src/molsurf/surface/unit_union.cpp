@@ -33,16 +33,17 @@ struct MeasuredUnion {
     }
 };
 
-/// Share of the unit in the Euler characteristic. Faces, arcs and corners of the boundary count
-/// with the mean weight of the balls whose spheres they lie on. Where many spheres meet in a point
-/// or a circle, which arcs and corners there are depends on how placedBalls() moves them, and that
-/// differs from unit to unit: which spheres meet there does not.
+/// Share of the unit in the Euler characteristic: corners less arcs plus the characteristics of
+/// faces, each with the mean weight of the balls whose spheres it lies on. (A full circle has no
+/// ends, and counts 0.) Where many spheres meet in a point or a circle, which arcs and corners
+/// there are depends on how ballBoundary() moves the balls, and that differs from unit to unit:
+/// which spheres meet there does not.
 ///
 /// @param[in] weights  the unit's part of each ball
 double eulerOfUnit(const std::vector<Ball>& balls, const std::vector<double>& weights,
                    const MeasuredUnion& all)
 {
-    constexpr double near = 1e-5;       // of a sphere [Å], far above the moves of placedBalls()
+    constexpr double near = 1e-5;       // of a sphere [Å], far above these moves
     constexpr double leastPatch = 1e-6; // [Å^2]: one that these moves can make
     const BallIndex index(balls, {1.0, 0.0, 1.0});
     const auto weightAt = [&](const Vec3d& x) {
@@ -131,7 +132,7 @@ UnitShare shareOfUnit(const BallSet& atoms, double grown, const Progress& progre
     const double euler =
         order * (single.size() == balls.size() ? eulerOfUnit(balls, weights, all)
                                                : eulerOfUnit(single, weights, {single, progress}));
-    const double whole = 2.0 * std::round(0.5 * euler);
+    const double whole = 2.0 * std::round(0.5 * euler); // that of closed surfaces is even
     if (std::abs(euler - whole) < 0.01) sum.wholeEuler = int(whole);
     return sum;
 }

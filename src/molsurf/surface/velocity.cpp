@@ -43,7 +43,7 @@ openvdb::Vec3SGrid::Ptr velocityGrid(const openvdb::FloatGrid& surface, const Ba
     const auto voxels = shownVoxels(surface, hasField(options.fields, "density"));
     openvdb::tools::dilateActiveValues(voxels->tree(), int(std::ceil(way / surface.voxelSize()[0])),
                                        openvdb::tools::NN_FACE_EDGE_VERTEX);
-    const double corner = std::sqrt(3.0) * (way + options.voxel);
+    const double corner = std::sqrt(3.0) * (way + options.voxel); // dilation is by cubes
     const Labels owner =
         ownersOf(*voxels, atoms.balls, Influence(atoms, options).ofLabel() + corner, progress);
     auto grid = gridOf<openvdb::Vec3SGrid>(*voxels, "v", Vec3f(0.0f), [&](std::size_t i) {
