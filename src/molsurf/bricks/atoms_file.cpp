@@ -66,6 +66,7 @@ Coord cellOf(const Vec3d& x)
     return Coord::floor(x / cellEdge);
 }
 
+/// The record of ball i; what the balls do not have is 0, or -1 if it is an index.
 Record recordOf(const BallSet& atoms, std::size_t i)
 {
     const Ball& ball = atoms.balls[i];
@@ -142,7 +143,7 @@ Json columns(const BallSet& atoms)
     return names;
 }
 
-/// Gives one ball what each has, for addBall() to see.
+/// Gives one entry to each column that the header names, by which addBall() knows it.
 void markColumns(const Json& names, BallSet& atoms)
 {
     forEachColumn(atoms, [&](const char* name, auto& column) {
@@ -151,7 +152,7 @@ void markColumns(const Json& names, BallSet& atoms)
 }
 
 /// Adds the ball of a record.
-/// @param[in] like  has one ball, with what each has
+/// @param[in] like  of markColumns(): columns that are empty there are not filled
 /// @return false if an index is wrong
 bool addBall(const Record& r, const BallSet& like, BallSet& out)
 {
@@ -248,7 +249,7 @@ ScalarMap parseMap(const Json& j)
     return map;
 }
 
-/// The opposite of headerText(), as far as balls have nothing of their own.
+/// The opposite of headerText(), but for "columns", "extent" and the map.
 BallSet parseHeader(const Json& j)
 {
     BallSet out;
@@ -347,7 +348,7 @@ void AtomsFile::refuse(const std::string& what) const
 
 void AtomsFile::readIndex(std::uint64_t size)
 {
-    Tail tail;
+    Tail tail; // at the end; before it, backward: the header, the cells and the map
     if (size < atomsMark.size() + sizeof tail) refuse("it is too short");
     readAt(file_, path_, size - sizeof tail, &tail, sizeof tail);
     if (tail.mark != atomsMark) refuse("it does not end with MOLATM01");

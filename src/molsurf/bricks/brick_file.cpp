@@ -106,6 +106,8 @@ std::map<std::string, std::string> wordsOf(const openvdb::MetaMap& metadata)
     return words;
 }
 
+/// Writes the leaves of a grid, some thousands at a time: their values are compressed in parallel,
+/// and written in their order.
 template<typename GridT>
 StoredGrid addGrid(const GridT& grid, std::uint32_t compression, Writer& writer,
                    const Progress& progress)
@@ -389,7 +391,7 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     Writer writer(file);
     Head head;
     file.write(magic.data(), magic.size());
-    file.write(&head, sizeof head);
+    file.write(&head, sizeof head); // zeros until the checksum is known
     const std::uint32_t compression =
         vdbCompression(std::all_of(brick.grids.begin(), brick.grids.end(), [](const auto& grid) {
             return grid->template isType<openvdb::FloatGrid>();

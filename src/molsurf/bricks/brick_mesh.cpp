@@ -30,6 +30,7 @@ std::vector<T> chosen(std::vector<T> all, const std::vector<std::uint32_t>& indi
 }
 
 /// The key of each vertex of the cells on either side of the brick's border; the others have none.
+/// Its last number counts the vertices of a cell in the order of the mesh.
 /// @param[out] keyed  the vertices that have a key
 /// @return one key for each of them
 std::vector<VertexKey> keysOf(const std::vector<Coord>& cells, const CoordBBox& box,
@@ -133,7 +134,7 @@ BrickMesh cutBrick(Mesh mesh, std::vector<Coord> cells, const CoordBBox& box, co
         parallelFor(in.size(), progress, [&](std::size_t v) { in[v] = region.isInside(cells[v]); });
         return in;
     };
-    // The fans that decide what the brick gets.
+    // Vertices whose fans of triangles may reach into the brick. Farther out the mesh is cut open.
     const CoordBBox beside(box.min().offsetBy(-2), box.max().offsetBy(2));
     Topology topology = checkTopology(mesh, verticesIn(beside), progress);
     const std::size_t before = cells.size();

@@ -100,6 +100,7 @@ MergedMesh::MergedMesh(const std::vector<BrickFile>& bricks)
         firsts_.push_back(firsts_.back() + header.vertices.count);
         triangles_ += header.triangles.count;
     }
+    // Each vertex that a brick has from others is found by its key among those that bricks own.
     std::sort(owned.begin(), owned.end());
     for (std::size_t b = 0; b < bricks.size(); ++b) {
         const std::uint64_t count = bricks[b].header().vertices.count;
@@ -129,7 +130,7 @@ void MergedMesh::checkTriangles(std::size_t b) const
     const BrickHeader& header = brick.header();
     Mesh mesh;
     mesh.triangles = brick.read<Triangle>(header.triangles);
-    mesh.positions.resize(header.vertices.count + foreign_[b].size());
+    mesh.positions.resize(header.vertices.count + foreign_[b].size()); // for their number only
     std::vector<char> used(mesh.positions.size()), border(mesh.positions.size());
     for (const Triangle& t : mesh.triangles) {
         for (const std::uint32_t v : t) {

@@ -21,9 +21,8 @@ class MergedMesh
 public:
     /// @param[in] bricks  all of a plan, in their order; they must outlive it
     /// @throws Error(ErrorKind::Input) if a vertex of a brick is missing in the one that owns it,
-    /// or
-    ///         if the triangles of a brick, where it has them, are not what it says of them: closed
-    ///         but for the open edges at its border, in so many pieces, at every vertex
+    ///         or if the triangles of a brick, where it has them, are not what it says of them:
+    ///         closed but for the open edges at its border, in so many pieces, at every vertex
     explicit MergedMesh(const std::vector<BrickFile>& bricks);
 
     std::size_t vertices() const { return firsts_.back(); }

@@ -36,7 +36,8 @@ struct Ends {
 };
 
 // Fills the tiles of a node, and of those below it, by the signs of its children, as
-// tools::SignedFloodFillOp does; the leaves have no values but know the signs of their ends.
+// tools::SignedFloodFillOp does: a tile has the last sign of the child before it along z, y or x.
+// The leaves have no values, but the signs of their ends as of StoredLeaf::negative.
 template<typename NodeT, typename T>
 Ends floodTiles(NodeT& node, const T& inside, const T& outside)
 {
@@ -135,6 +136,7 @@ void checkNodes(std::vector<std::array<std::int32_t, 3>> origins)
         for (std::int32_t& x : origin) x &= ~std::int32_t(Upper::DIM - 1);
     std::sort(origins.begin(), origins.end());
     const auto nodes = std::size_t(std::unique(origins.begin(), origins.end()) - origins.begin());
+    // As much as 8 upper nodes, and two lower ones a leaf, may take.
     if (nodes * upper > 8 * upper + 2 * lower * leaves)
         throw Error(ErrorKind::Input,
                     "merge: the leaves of the bricks are too far from each other");
@@ -273,7 +275,7 @@ public:
         openvdb::io::GridDescriptor descriptor(grid.getName(), grid.type(), grid.saveFloatAsHalf());
         descriptor.writeHeader(stream);
         const auto offsets = seekable ? stream.tellp() : std::ostream::pos_type(0);
-        descriptor.writeStreamPos(stream);
+        descriptor.writeStreamPos(stream); // again at the end, when the positions are known
         if (seekable) descriptor.setGridPos(stream.tellp());
         setGridCompression(stream, grid);
         openvdb::GridBase::Ptr described =

@@ -69,7 +69,8 @@ std::vector<BrickFile> openBricks(const std::vector<std::string>& paths, const s
     return bricks;
 }
 
-/// Groups with the areas of their parts, in proportion to the whole area.
+/// Sums the areas of groups over bricks, and scales them to the area of the whole. The last one is
+/// that of no group, whose atoms are the rest; without any it is dropped.
 void addGroups(const std::vector<BrickFile>& bricks, Report& report)
 {
     std::size_t rest = report.atoms;
@@ -98,7 +99,8 @@ void addGroups(const std::vector<BrickFile>& bricks, Report& report)
     if (rest == 0 && report.groups.back().area == 0.0) report.groups.pop_back();
 }
 
-/// The history of the flow: sums over the bricks, and the stopping rule as of its last step.
+/// The history of the flow: sums over the bricks (of displacements means, weighted by area), and
+/// the stopping rule as of its last step.
 std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
                                            const EvolveOptions& options, double voxel)
 {

@@ -108,8 +108,10 @@ struct Occupancy {
     Sample sample; ///< that the leaves are
 };
 
-/// Adds the leaves between two spheres about a ball's centre: column by column, since most of those
-/// in their box lie inside.
+/// Adds the leaves that may lie between two spheres about a ball's centre: those whose middles are
+/// at most half a diagonal beyond either. Goes column by column along z, and passes over the hole,
+/// since most of those in their box lie inside.
+/// @param[in] edge  of a leaf [Å], as are inner and outer
 void addShell(const Vec3d& centre, double inner, double outer, double edge, const Sample& sample,
               std::vector<Coord>& places)
 {
@@ -144,7 +146,9 @@ bool isLarge(const Ball& ball, double edge)
     return ball.radius > many * edge;
 }
 
-/// How many leaves occupancyOf() finds at most, to the factor of a few that a limit needs.
+/// How many leaves occupancyOf() finds at most, to the factor of a few that a limit needs. Large
+/// balls have shells of the area pi across^2, four leaves deep. Small ones fill cubes, or together
+/// no more than the box of all, which their radii widen by up to four leaves a side.
 double leavesAtMost(const std::vector<Ball>& balls, double voxel, double reach)
 {
     const double edge = leafDim * voxel;
@@ -195,7 +199,7 @@ std::vector<Coord> placesNear(const std::vector<Coord>& own, int steps, double m
         }
         return near;
     }
-    // Voxels of this table stand for leaves.
+    // In this table a voxel is the place of a leaf, and a leaf a block of 8^3 places.
     LeafTable table(std::move(blocks));
     using Leaf = openvdb::FloatTree::LeafNodeType;
     for (const Coord& place : own)
@@ -209,6 +213,8 @@ std::vector<Coord> placesNear(const std::vector<Coord>& own, int steps, double m
     return near;
 }
 
+/// Finds the leaves that may have a part of the surface: those within reach of the largest small
+/// ball about each leaf with a centre, and those in the shells of large balls.
 /// @param[in] reach  how far the surface may lie from the balls [Å]
 /// @param[in] most   leaves that are listed, see placesNear()
 Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach, double most,
@@ -307,6 +313,9 @@ public:
     /// Estimates are of processes that read the balls near a brick from a file.
     void readFromDisk() { atomsHeld_ = 0.0; }
 
+    /// Counts leaves and balls in the box and its halos, and weights them by the constants
+    /// above. The memory is the larger of two peaks, the flow's and the mesh's, on top of what
+    /// is always there.
     /// @param[in] box  of places
     PlannedBrick estimate(const CoordBBox& box) const
     {
@@ -321,7 +330,8 @@ public:
         splined.expand(scope.splineHalo);
         flowed.expand(widest);
         near.expand(widest + reach);
-        const double count = weight_ * std::pow(grain_ / options_.voxel, 2); // of finer leaves
+        // Leaves of the options' voxels for each that is listed: a surface's grow by the square.
+        const double count = weight_ * std::pow(grain_ / options_.voxel, 2);
         double own = 0, inSpline = 0, inFlow = 0;
         std::size_t balls = 0;
         for (std::size_t n = 0; n < occupancy_.leaves.size(); ++n) {
@@ -376,7 +386,8 @@ public:
                bytesPerFlowLeaf * coarseLeaves();
     }
 
-    /// Cuts a box in two, `share` of the surface in the first. False if it is too small.
+    /// Cuts a box in two across its longest axis, `share` of the leaves in the first. False if it
+    /// is too small.
     bool cut(const CoordBBox& box, double share, CoordBBox& first, CoordBBox& second) const
     {
         const int axis = int(box.extents().maxIndex());
@@ -547,7 +558,7 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
 /// and for the mesher's own: atoms far from each other have nodes of their own.
 double bytesOfNodes(const std::vector<Ball>& balls, double voxel)
 {
-    constexpr double ofBoth = 1.03e6; // two levels; 2,000 atoms took 2.8 GB for 0.7
+    constexpr double ofBoth = 1.03e6; // two levels; 2,000 atoms took 2.8 GB, 0.7 were estimated
     constexpr double edge = 4096.0;   // of the upper one [voxel]
     constexpr std::size_t compact = 8;
     std::vector<Coord> nodes;
@@ -617,6 +628,7 @@ double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunL
                  const Progress& progress)
 {
     checkBalls(atoms.balls, options, Pieces::One, limits.memory);
+    // Bounds first: most surfaces are far below the limits, and need no plan.
     const double leaves =
         leavesAtMost(atoms.balls, options.voxel, Influence(atoms, options).ofSurface());
     const double balls = double(atoms.balls.size());

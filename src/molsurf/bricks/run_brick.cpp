@@ -32,8 +32,8 @@ int leavesFor(double voxels)
     return int(std::ceil(voxels / leafDim));
 }
 
-/// Fills the places beside leaves where there is none by the sign of the nearest value, since what
-/// flood fill makes of a level set that is cut open cannot be trusted.
+/// Fills the places about leaves (26 each) where there is none with tiles of the sign of the
+/// nearest value, since what flood fill makes of a level set that is cut open cannot be trusted.
 void closeSides(openvdb::FloatGrid& surface)
 {
     using Leaf = openvdb::FloatTree::LeafNodeType;
@@ -51,7 +51,7 @@ void closeSides(openvdb::FloatGrid& surface)
         }
     }
     const float outside = tree.background();
-    // Leaves that share a face with the place come last and decide.
+    // If several leaves have such a place, the last in the order of the tree decides.
     for (const auto& [origin, inside] : missing)
         tree.addTile(1, origin, inside ? -outside : outside, false);
 }
