@@ -58,6 +58,7 @@ void checkNames(const Call& call, const std::vector<Task>& tasks)
                 call.input + ": " + one + " and " + other + " would both be written to " + outputs);
 }
 
+// The structures of the list, each with its files: the call's outputs have extensions for paths.
 std::vector<Task> tasksOf(const Call& call)
 {
     std::vector<Task> tasks;
@@ -111,7 +112,8 @@ BatchEntry doneEntry(BatchEntry entry, const Report& report)
 }
 
 // Does one task, unless this run or another has done it with the same content of its input. Files
-// that a run has begun may be replaced, others only with --force.
+// that a run has begun may be replaced, others only with --force. An error of the structure becomes
+// the status of its entry, so that the others go on.
 // @param[out] kept  done before
 BatchEntry perform(const Call& call, const Task& task, BatchJournal& journal, bool& kept)
 {

@@ -153,7 +153,8 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
     return meshes;
 }
 
-// Meshes and pictures have some of the walls; the report and the .vdb have all.
+// Drops the pieces of the mesh that --walls leaves out: cavities, whose volume is negative, or the
+// others. The report and the .vdb have all.
 void keepWalls(const Call& call, const Progress& progress, Mesh& mesh)
 {
     if (call.walls == Walls::All || mesh.triangles.empty()) return; // no file has a mesh
@@ -236,7 +237,7 @@ std::string closedByField(const Report& report, const SurfaceOptions& options)
                   gaps.widestClosed);
     for (const double epsilon : {0.25, 0.1, 0.05}) {
         if (epsilon >= gaps.opensBelow) continue;
-        if (options.voxel <= 2.0 * epsilon)
+        if (options.voxel <= 2.0 * epsilon) // larger ones do not resolve it
             return line +
                    formatted(" [hint: --epsilon %g opens the widest, --surface ses all]", epsilon);
         return line + formatted(" [hint: --epsilon %g --voxel %g opens the widest, --surface ses "

@@ -142,6 +142,7 @@ int buildInBricks(Call call, Clock::time_point start)
     checkWay(InBricks, call.options);
     checkOutputs(call);
     atoms.names.reset(); // bricks use none
+    // As many bricks as it takes, all in this process, their atoms on disk.
     const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true, true}, terminal);
     terminal.erase();
     if (call.dryRun || !call.quiet) {

@@ -61,13 +61,16 @@ void refuseScene(const std::string& path, const openvdb::MetaMap& metadata)
                                          "[hint: write a plain .vdb]");
 }
 
-/// @param[in] first  the other one, if that was read before
+/// Reads a .vdb, a mesh or a structure, whose surface is made; of a dry run only the cost.
+/// @param[in,out] said  gets a line on a structure
+/// @param[in]     first  the other one, if that was read before
+/// @throws Error(ErrorKind::Input) if it costs too much, with the other one
 Read readOne(const Call& call, const std::string& path, Terminal& terminal,
              std::vector<std::string>& said, const Read* first = nullptr)
 {
     Read read;
     read.path = path;
-    const auto costs = [&](const PlannedBrick& cost) {
+    const auto costs = [&](const PlannedBrick& cost) { // gives whether to go on
         read.cost = cost;
         if (!call.dryRun)
             checkCost(first ? costOfComparison(first->cost, cost) : cost, limitsOf(call));

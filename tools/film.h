@@ -49,6 +49,7 @@ public:
     std::unique_ptr<OutputFile> finish();
 
 private:
+    /// Starts ffmpeg: raw pictures through a pipe to its input, its messages to a file in memory.
     void begin();
     [[noreturn]] void fail();
     /// @return the status that ffmpeg ended with, as of waitpid()

@@ -121,6 +121,7 @@ std::string unrestText(const EvolutionReport& evolution, double voxel, const std
         return "not converged after " + steps +
                ": the paper's rule asks for no speed above 0.001 [hint: --flow newton]";
     const double tolerance = evolution.toleranceMet;
+    // 5 % above it, rounded up to two digits.
     const double unit = std::pow(10.0, std::floor(std::log10(tolerance)) - 1.0);
     const double accepted = unit * std::ceil(1.05 * tolerance / unit);
     const std::string hint =

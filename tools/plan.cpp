@@ -93,6 +93,7 @@ int plan(Call call)
     add(call.input);
     for (const OptionFile& file : filesOf(call.verb, call.given))
         if (file.option->stored) add(file.path);
+    // Bricks run in processes of their own, and read their atoms from disk.
     manifest.plan = planBricks(atoms, call.options,
                                {std::size_t(call.bricks), call.memory, false, true}, terminal);
     colorBalls(call.options, terminal, atoms);

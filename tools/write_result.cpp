@@ -166,7 +166,7 @@ ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh
             bordersOf(call.options.color, atoms,
                       asMeshed(placedBalls(atoms, originOf(call)), call.options), mesh, progress);
     if (!cut || !shown.borders) return shown;
-    const KindRow& kind = rowOf(call.options.kind);
+    const KindRow& kind = rowOf(call.options.kind); // a union's creases are off by a voxel at most
     shown.crisp = withCrispBorders(
         mesh, *shown.borders, kind.isUnion && !kind.hasOffset ? call.options.voxel : 0.0,
         call.options.color == ColorBy::Value ? atoms.labels->values->name : "", progress);

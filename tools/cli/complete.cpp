@@ -208,7 +208,8 @@ void warnOfKinds(Call& call)
     }
 }
 
-// To be called before completeSurface().
+// Sets what the files of APBS need: charges, and the solvent-excluded surface unless another one is
+// asked for. To be called before completeSurface().
 void completeSolver(Call& call)
 {
     if (call.forApbs && !call.writes(Solver) && !call.paths.empty())
@@ -223,7 +224,8 @@ void completeSolver(Call& call)
                             "surface [hint: --surface ses, or --match ses]");
 }
 
-// To be called before completeSurface().
+// Adds the fields and files that --for implies, and gives the least wall in Å, not in mm of the
+// print. To be called before completeSurface().
 void completeScene(Call& call)
 {
     if (call.scene.known() && (call.outputs.empty() || call.writes(Grids))) {
@@ -341,6 +343,7 @@ bool asksForNumbers(const Call& call)
            !(unit && (value || !isBoundary(call.options))) && !call.center && call.writesOnly(some);
 }
 
+// Sets what tables of areas need: their surface, names, groups, and whether there is a grid at all.
 // To be called before completeGroups().
 void completeAreas(Call& call)
 {
@@ -348,7 +351,7 @@ void completeAreas(Call& call)
     for (const Output& output : call.outputs)
         if (output.holds(Areas)) tables.insert(output.format->table);
     if (!call.has("surface") && (!tables.empty() || call.options.interfaces)) {
-        // The field's words mean this surface.
+        // In the field, areas of residues and of interfaces are those of this surface.
         call.options.areasOf = SurfaceKind::SolventAccessible;
         if (call.writesOnly(Areas | Shares)) call.options.kind = SurfaceKind::SolventAccessible;
     }

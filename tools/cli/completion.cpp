@@ -53,7 +53,7 @@ std::string withoutColons(const std::string& text)
 std::string bashCompletion()
 {
     const VerbWords known = verbWords();
-    std::string words, lists;
+    std::string words, lists; // cases: the values of an option of a verb, the options of a verb
     for (const VerbInfo& info : verbTable()) {
         const std::string name = info.name;
         std::string all;
@@ -99,7 +99,7 @@ std::string bashCompletion()
 std::string zshCompletion()
 {
     const VerbWords known = verbWords();
-    std::string words, lists;
+    std::string words, lists; // as of bash
     for (const VerbInfo& info : verbTable()) {
         const std::string name = info.name;
         lists += "    \"" + name + "\") options=(";

@@ -53,7 +53,7 @@ std::string statusOf(const VerbInfo& info)
 {
     std::vector<std::string> all;
     for (const ExitStatus& row : exitStatuses) {
-        if (row.status == laterStatus && *info.status)
+        if (row.status == laterStatus && *info.status) // 3 comes before it
             all.push_back(std::to_string(notConvergedStatus) + " " + info.status);
         all.push_back(std::to_string(row.status) + " " + row.text);
     }

@@ -45,8 +45,8 @@ namespace
 
 using Values = std::vector<std::string>;
 
-// Rows by the type of their value, which files do not have. `of` gives the variable of a call that
-// the option sets: MOLSURF_OF(options.voxel).
+// Options by the type of their value, which is not stored in files (Option::stored). `of` gives the
+// variable of a call that the option sets: MOLSURF_OF(options.voxel).
 
 openvdb::Metadata::Ptr stored(const std::string& text)
 {

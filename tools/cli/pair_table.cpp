@@ -285,7 +285,8 @@ std::string typed(std::string words)
     return words.rfind("output", 0) == 0 ? "-o" + words.substr(6) : "--" + words;
 }
 
-/// Whether a value of an option is the one that is looked for, or one of its list.
+/// Whether a value of an option is the one that is looked for, or has it in its list.
+/// @param[in] wanted  "": any value but none
 bool isValue(const std::string& given, const std::string& wanted)
 {
     const std::string value = lowered(given);

@@ -174,7 +174,7 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
         if (!known && std::find(std::begin(texts), std::end(texts), name) == std::end(texts))
             refuse(verb, "--" + name);
         if (!(known && known->value) && !option.value.empty() && !isOn(name, option.value[0]))
-            continue;
+            continue; // a switch that is off
         std::vector<std::string>& values = fresh[name];
         if (known && known->value && !known->repeats && !values.empty())
             misuse("--" + name + " is given twice");

@@ -14,7 +14,7 @@ namespace molsurf::msms
 namespace
 {
 
-/// Adds one line of a text; longer ones than a buffer takes come from names.
+/// Adds a line: the values, in at most `room` letters, and behind them the name, of any length.
 template<typename... Values>
 void print(OutputFile& file, Buffer& buffer, const std::string& name, const char* format,
            Values... values)

@@ -70,8 +70,10 @@ struct Exact {
         return {kind, std::uint32_t(number)};
     }
 
-    /// Moves a vertex onto the surface, and returns what it then is nearest to. Without a probe
-    /// it is not moved.
+    /// Moves a vertex x onto the surface, to the distance of the probe radius from the nearest
+    /// point y of the boundary: y + probe (x - y)/|x - y|, again while that has another nearest
+    /// point. Without a probe it is not moved.
+    /// @return what it then is nearest to
     BoundaryPoint place(Vec3f& position, Vec3f& normal) const
     {
         constexpr int most = 4;        // moves; more than one only where faces intersect
@@ -129,6 +131,9 @@ struct Shares {
     std::vector<std::uint32_t> ofVertex, ofPiece; ///< none: in no component
 };
 
+/// Finds the components by union-find over pieces of the mesh and of the boundary: a vertex joins
+/// its piece to that of the boundary's part that it is nearest to.
+/// @param[in] points  nearest to the vertices
 Shares sharesOf(const Mesh& mesh, const std::vector<BoundaryPoint>& points, const Exact& exact,
                 const Progress& progress)
 {
