@@ -49,7 +49,7 @@ std::uint64_t sizeOfMap(const std::string& type)
     return std::uint64_t(text.tellp());
 }
 
-/// The numbers of children of a node along an edge, by level; 0 is a leaf.
+/// The number of values of a node, by level: 8^3 of a leaf (0), 16^3 and 32^3.
 constexpr std::uint64_t valuesOf[] = {512, 4096, 32768};
 
 constexpr int rootSpan = 4096; ///< voxels of a child of the root along an edge
@@ -209,7 +209,7 @@ private:
             origin();
             node(2);
         }
-        for (std::uint64_t i = 0; i < leaves_; ++i) leafValues();
+        for (std::uint64_t i = 0; i < leaves_; ++i) leafValues(); // behind the topology of all
         constexpr std::uint64_t ofLeaf = 128; // beside its values: mask, place, allocation
         content_.leaves = std::max(content_.leaves, leaves_);
         content_.bytes += leaves_ * (valuesOf[0] * type_.size + ofLeaf);
@@ -252,7 +252,9 @@ private:
             nodeValues(values, on);
     }
 
-    /// The values that io::readCompressedValues() reads.
+    /// Passes over what io::readCompressedValues() reads: how inactive values are kept, one or two
+    /// of these with a mask that tells them apart, and the active values or all.
+    /// @param[in] on  how many of the values are active
     void nodeValues(std::uint64_t values, std::uint64_t on)
     {
         const auto kind = take<std::int8_t>();

@@ -182,7 +182,8 @@ fs::path firstOf(const Entries& entries, const fs::path& folder)
     return {};
 }
 
-/// Does what the record of a folder says, and removes it.
+/// Does what the record of a folder says, and removes it. That of the first folder decides for all:
+/// the others lead to it, and if it is gone they name nothing that is left to do.
 void finish(const fs::path& folder, const std::string& maker)
 {
     const fs::path record = folder / recordName(maker);

@@ -18,7 +18,7 @@ namespace
 constexpr const char* title = "file,frame,converged,steps,atoms,area,volume,"
                               "euler_characteristic,components,cavities,seconds,options";
 
-// Parses one line; false if it is none of a table.
+// Parses one line, with the cells of `title`; false if it is none of a table.
 bool parse(const std::string& line, FrameTable& table)
 {
     const std::vector<std::string> cells = splitWords(line);

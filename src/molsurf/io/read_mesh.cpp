@@ -46,7 +46,7 @@ std::size_t hashOf(const openvdb::Vec3f& p)
     return std::size_t(hash);
 }
 
-/// The first vertex at the place of each vertex.
+/// The first vertex at the place of each vertex, by a hash table with linear probing.
 std::vector<std::uint32_t> firstAtPlace(const std::vector<openvdb::Vec3f>& positions)
 {
     std::size_t size = 16;
@@ -129,6 +129,7 @@ Mesh readMesh(const std::string& path, std::size_t maxBytes)
         if (mesh.triangles.empty()) badMesh("expected triangles, got a mesh without any");
         checkArrays(mesh);
         dropFlat(mesh);
+        // A closed mesh is not welded: where its sheets touch, they would become one.
         if (stl || !hasInside(mesh, vertexTriangles(mesh), Progress())) {
             weld(mesh);
         } else {

@@ -70,7 +70,7 @@ Mesh parseStl(std::string_view content)
     mesh.positions.reserve(3 * std::size_t(count));
     mesh.triangles.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        float numbers[9];
+        float numbers[9]; // behind the normal, which is 12 bytes
         std::memcpy(numbers, content.data() + headSize + i * triangleSize + 12, sizeof numbers);
         for (int k = 0; k < 3; ++k)
             mesh.positions.push_back(checkedPosition(numbers[3 * k], numbers[3 * k + 1],

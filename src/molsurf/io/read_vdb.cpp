@@ -53,7 +53,7 @@ std::string vdbText(const std::string& path, const std::string& name)
         const auto count = std::uint32_t(length);
         return std::string(reinterpret_cast<const char*>(&count), sizeof count);
     };
-    const std::string type = "string";
+    const std::string type = "string"; // name, type and value are each a length and its bytes
     const std::string key = counted(name.size()) + name + counted(type.size()) + type;
     std::ifstream stream(path, std::ios_base::binary);
     std::string head;

@@ -80,7 +80,8 @@ std::string makerOfProcess(const std::string& process)
     return process + "-" + machine + tagOf(boot + startOf(process));
 }
 
-/// Whether a process of this machine has ended; false for one of another machine.
+/// Whether a process of this machine has ended: its number is free, or that of one with another
+/// start, so that the last tag differs and all before it is the same. False for another machine.
 bool isGone(const std::string& maker)
 {
     constexpr std::size_t tag = 8;

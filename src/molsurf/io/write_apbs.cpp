@@ -41,7 +41,8 @@ public:
         return std::abs(linear) < voxel_ ? spline_.at(x).value : linear;
     }
 
-    /// The share of an edge that lies inside.
+    /// The share of an edge that lies inside: steps of half a voxel, and bisection in those whose
+    /// ends have different signs.
     /// @param[in] from, to  distances at its ends
     double inside(const Vec3d& begin, const Vec3d& end, double from, double to)
     {
@@ -207,6 +208,7 @@ void writeDielectricMap(const MapSurface& surface, const ApbsGrid& grid, int axi
 {
     const auto [nx, ny, nz] = grid.points;
     Crossings along(surface);
+    // Distances at the nodes of a slab, and at those where its last edges along y and z end.
     const auto slab = [&, ny = ny, nz = nz](int i) {
         std::vector<float> distances(std::size_t(ny + 1) * std::size_t(nz + 1));
         for (int j = 0, at = 0; j <= ny; ++j)
@@ -216,7 +218,7 @@ void writeDielectricMap(const MapSurface& surface, const ApbsGrid& grid, int axi
     };
     Vec3d step(0.0);
     step[axis] = grid.spacing()[axis];
-    const std::array<std::size_t, 3> ahead = {0, std::size_t(nz + 1), 1};
+    const std::array<std::size_t, 3> ahead = {0, std::size_t(nz + 1), 1}; // in a slab, by axis
     TextOutput out(file);
     DxArray array(formatted("dielectric at the middles of edges along %c", "xyz"[axis]),
                   grid.points, grid.node(0, 0, 0) + 0.5 * step, grid.spacing(), out);
@@ -245,7 +247,7 @@ void writeIonMap(const std::vector<Ball>& balls, const ApbsGrid& grid, double io
     TextOutput out(file);
     DxArray array("1 where ions may be, 0 within the radius of an ion of an atom", grid.points,
                   corner, h, out);
-    std::vector<char> closed;
+    std::vector<char> closed; // nodes of a slab: the chords of each ball are drawn into it
     for (int i = 0; i < nx; ++i) {
         closed.assign(std::size_t(ny) * std::size_t(nz), 0);
         for (const Ball& ball : balls) {

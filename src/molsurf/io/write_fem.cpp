@@ -84,7 +84,7 @@ Vec3d pointInside(const Mesh& mesh, const RayScene& scene, const Wall& wall)
         const std::uint32_t t = large[s];
         from[s] = (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3.0;
         along[s] = normalOf(mesh, t).unit();
-        valid[s] = -1;
+        valid[s] = -1; // Embree's word for a ray that is traced
         setRay(rays.ray, s, from[s], along[s], std::numeric_limits<double>::infinity());
         rays.ray.tnear[s] = least;
         rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;

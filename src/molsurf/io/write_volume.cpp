@@ -53,7 +53,7 @@ DenseBox denseBoxOf(const openvdb::FloatGrid& surface, const Vec3d& origin, cons
     return dense;
 }
 
-/// Calls a function with each value, the axis `fast` fastest and `slow` slowest.
+/// Calls a function with each value, axis `fast` fastest and `slow` slowest: 0 and 2, either way.
 template<typename Each>
 void forEachValue(const openvdb::FloatGrid& surface, const DenseBox& box, int slow, int fast,
                   const Each& each)
