@@ -39,9 +39,9 @@ Color ColorScale::at(double value) const
 {
     const double range = high - low, last = double(stops.size() - 1);
     double place = range > 0.0 ? (value - low) / range * last : 0.0;
-    if (!(place > 0.0)) place = 0.0;
+    if (!(place > 0.0)) place = 0.0; // also of what is not a number
     place = std::min(place, last);
-    if (steps) return stops[std::size_t(place + 1e-9)];
+    if (steps) return stops[std::size_t(place + 1e-9)]; // a stop has its own, even rounded
     const std::size_t i = std::min(std::size_t(place), stops.size() - 2);
     const double t = place - double(i);
     Color color;
@@ -137,7 +137,7 @@ const std::vector<Palette>& paletteTable()
         turned.word = "BuRd";
         std::reverse(turned.stops.begin(), turned.stops.end());
         rows.insert(rows.begin() + 4, turned);
-        rows.push_back({"plddt", {}, true});
+        rows.push_back({"plddt", {}, true}); // one stop a unit, from 0 to 100
         for (int i = 0; i <= 100; ++i)
             rows.back().stops.push_back(i >= 90   ? Color{0, 83, 214}
                                         : i >= 70 ? Color{101, 203, 243}

@@ -25,7 +25,8 @@ namespace
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The middle of the arc between two vertices, from the middle of the edge [Å].
+/// From the middle of an edge to that of the cubic Hermite arc over it, which is at right angles to
+/// both normals (as in measure()) [Å].
 Vec3d bulge(const Mesh& mesh, std::uint32_t a, std::uint32_t b)
 {
     const Vec3d edge = Vec3d(mesh.positions[b]) - Vec3d(mesh.positions[a]);
@@ -33,14 +34,14 @@ Vec3d bulge(const Mesh& mesh, std::uint32_t a, std::uint32_t b)
     return (edge.dot(n) * n - edge.dot(m) * m) / 8.0;
 }
 
-/// A point on the arc from a to b.
+/// A point on the arc from a to b, taken as the parabola with the same middle.
 Vec3d onArc(const Mesh& mesh, std::uint32_t a, std::uint32_t b, double t)
 {
     return (1.0 - t) * Vec3d(mesh.positions[a]) + t * Vec3d(mesh.positions[b]) +
            4.0 * t * (1.0 - t) * bulge(mesh, a, b);
 }
 
-/// A point of the patch over a triangle, at barycentric coordinates w.
+/// A point of the quadratic patch whose sides are those arcs, at barycentric coordinates w.
 Vec3d onPatch(const Mesh& mesh, const Triangle& t, const Vec3d& w)
 {
     Vec3d x(0.0);
@@ -70,8 +71,9 @@ public:
         return zeroBetween(at(0.0), at(1.0), {20, 1e-5, 1e-6}, at);
     }
 
-    /// Moves a point near the circle in which the spheres of two owners meet onto it, if it is
-    /// closer than a limit [Å]: a mesh cuts off the crease there.
+    /// Moves a point onto the circle in which the spheres of two owners meet, by Newton's
+    /// method; leaves it if that is farther than a limit [Å], or not found. A mesh cuts off the
+    /// crease there.
     void snap(Vec3d& x, std::int32_t a, std::int32_t b, double limit)
     {
         const Vec3d start = x;
@@ -83,10 +85,11 @@ public:
                 if (near.owner == b) second = &near;
             }
             if (!first || !second) break;
-            // Newton's method of least steps for both powers to vanish.
+            // Both powers f, g are to vanish, by the shortest step: a combination of their
+            // gradients u, v, from two equations for the factors.
             const Vec3d u = 2.0 * (x - first->centre), v = 2.0 * (x - second->centre);
             const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), det = uu * vv - uv * uv;
-            if (det < 1e-6 * uu * vv) break;
+            if (det < 1e-6 * uu * vv) break; // centres nearly in line with x
             const double f = first->power, g = second->power;
             const Vec3d step = ((vv * f - uv * g) * u + (uu * g - uv * f) * v) / det;
             x -= step;
@@ -96,8 +99,9 @@ public:
         x = start;
     }
 
-    /// Barycentric coordinates of the point of a triangle where its three owners meet, or of one
-    /// nearest to that if it lies just outside; the middle, if it is far away.
+    /// Barycentric coordinates (1 - u - v, u, v) where the three owners of a triangle's corners
+    /// have equal power: by Newton's method with difference quotients. Moved inside if it lies just
+    /// outside; the middle, if it is far away.
     Vec3d meeting(const Triangle& t, const std::array<std::int32_t, 3>& owner)
     {
         const Vec3d middle(1.0 / 3.0);
@@ -175,7 +179,7 @@ public:
         return edges;
     }
 
-    /// Adds the vertices of the next crossed edge.
+    /// Adds the two vertices of the next crossed edge, that of its lower end's side first.
     void add(const CrossedEdge& edge)
     {
         const auto [a, b] = edge.ends;
@@ -183,7 +187,8 @@ public:
         for (const std::uint32_t side : {a, b}) add(edge.place, {a, b, b}, {1.0 - t, t, 0.0}, side);
     }
 
-    /// Adds a triangle, cut if borders cross it.
+    /// Adds a triangle, or its pieces. Of three owners each corner gets two triangles as far as the
+    /// point where they meet; of two owners one gets the tip, the other two triangles.
     void add(const Triangle& t, Cutter& cutter)
     {
         const std::array<std::int32_t, 3> o = {owner_[t[0]], owner_[t[1]], owner_[t[2]]};
@@ -233,7 +238,8 @@ private:
         return v;
     }
 
-    /// The vertex on a crossed edge, on the side of its end `a`.
+    /// The vertex on a crossed edge, on the side of its end `a`. Edge e has the vertices n + 2e and
+    /// n + 2e + 1 (see add()), after the n of the mesh.
     std::uint32_t onEdge(std::uint32_t a, std::uint32_t b) const
     {
         return std::uint32_t(owner_.size() + 2 * edgeOf_.at(keyOf(a, b)) + (a > b));

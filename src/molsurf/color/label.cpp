@@ -39,7 +39,9 @@ Labels labelsOf(const Labels& nearest, const Labels& labelOf)
 namespace
 {
 
-/// The part of a triangle where a function that is linear in it is negative.
+/// The part of a triangle where a function that is linear in it is negative: if only one corner is,
+/// that corner's triangle, whose sides are shares f0 / (f0 - f1) and f0 / (f0 - f2) of its own.
+/// @param[in] f  the function at the corners
 double negativeShare(std::array<double, 3> f)
 {
     std::sort(f.begin(), f.end());
@@ -137,21 +139,23 @@ openvdb::Vec3d placeIn(const Coord& cell)
 
 std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume)
 {
-    constexpr double enough = 1e5, plenty = 1e6; // points
-    constexpr double most = 4e6;                 // cells that are looked at
+    constexpr double enough = 1e5, plenty = 1e6; // points in a small and in a very large volume
+    constexpr double most = 4e6;                 // cells that are looked at beside the surface
     const double h = surface.voxelSize()[0];
     const double width =
         std::max(std::min(1.0, std::cbrt(volume / enough)), std::cbrt(volume / plenty)) / h;
-    const int stride = std::max(1, int(std::floor(width + 1e-9))); // voxels a cell, or
-    // cells a voxel, fewer where nearly all voxels beside the surface are outside.
+    // Along an axis, a cell has `stride` voxels or, if it is smaller, a voxel has `parts` cells:
+    // no more than `most` allows, since in a tiny volume few of them are inside.
+    const int stride = std::max(1, int(std::floor(width + 1e-9)));
     const double finest = std::cbrt(most / double(surface.activeVoxelCount() + 1));
     const int parts = std::max(1, int(std::min(std::ceil(1.0 / width - 1e-9), finest)));
     openvdb::tools::GridSampler<openvdb::FloatGrid, openvdb::tools::BoxSampler> phi(surface);
     std::vector<Vec3f> points;
+    // Adds a voxel, if the place of its cell lies in it.
     const auto addOne = [&](const Coord& voxel) {
         Coord cell;
         for (int a = 0; a < 3; ++a) {
-            cell[a] = (voxel[a] - (voxel[a] < 0 ? stride - 1 : 0)) / stride;
+            cell[a] = (voxel[a] - (voxel[a] < 0 ? stride - 1 : 0)) / stride; // rounded down
         }
         const openvdb::Vec3d at = placeIn(cell) * stride;
         for (int a = 0; a < 3; ++a) {
@@ -159,6 +163,7 @@ std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume
         }
         points.emplace_back(surface.indexToWorld(voxel));
     };
+    // Adds those places of a voxel's cells that are inside; its coordinates are its middle.
     const auto addParts = [&](const Coord& voxel) {
         for (int p = 0; p < parts * parts * parts; ++p) {
             const Coord cell =
@@ -169,6 +174,7 @@ std::vector<Vec3f> pointsInside(const openvdb::FloatGrid& surface, double volume
         }
     };
     for (auto it = surface.cbeginValueAll(); it; ++it) {
+        // A voxel is whole inside or not; cells of one just outside may be inside.
         if (*it >= (parts > 1 ? float(h) : 0.0f)) continue;
         const openvdb::CoordBBox box = it.getBoundingBox();
         for (auto c = box.begin(); c; ++c) {

@@ -31,7 +31,7 @@ constexpr Color paletteColors[mostDistinct] = {
     {248, 208, 168}, {112, 128, 88},  {176, 192, 248}, {168, 48, 0},    {0, 232, 176},
     {176, 120, 112}, {192, 176, 104}, {144, 88, 0},    {136, 80, 96},   {224, 152, 248},
     {184, 88, 208},  {32, 192, 80},   {0, 144, 16},    {168, 224, 240}, {176, 160, 192}};
-constexpr std::size_t shared = 8; // of them, if there are more things than colours
+constexpr std::size_t shared = 8; // of them, which things share if there are more than colours
 
 /// The colours of the places of all, or none if one has no colour of its own.
 std::vector<Color> colorsOfPlaces(const std::vector<std::int32_t>& places)
@@ -46,6 +46,7 @@ std::vector<Color> colorsOfPlaces(const std::vector<std::int32_t>& places)
 
 } // namespace
 
+/// Greedy graph colouring, in the order of the things.
 std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& neighbours)
 {
     if (neighbours.size() <= mostDistinct)
@@ -59,7 +60,7 @@ std::vector<Color> distinctColors(const std::vector<std::vector<std::int32_t>>& 
         }
         std::size_t best = 0;
         const auto cost = [&](std::size_t k) {
-            // A neighbour of the same colour is worst, then a further one, then one used often.
+            // Fewest neighbours that have it, then the earliest eight, then the least used.
             return std::make_tuple(taken[k], k / shared, uses[k]);
         };
         for (std::size_t k = 1; k < mostDistinct; ++k) {
@@ -139,6 +140,7 @@ std::vector<Color> instanceColors(const BallSet& atoms, const Progress& progress
         openvdb::BBoxd box;
         const auto [begin, end] = atoms.prototype(p);
         for (std::size_t i = begin; i < end; ++i) box.expand(openvdb::Vec3d(atoms.balls[i].center));
+        // Of a cube 0.29 of the diagonal is half an edge, so this ball goes a little beyond it.
         prototypes.push_back({box.getCenter(), 0.35 * box.extents().length()});
     }
     std::vector<Ball> middles; // of copies, as balls that touch where copies are near

@@ -77,9 +77,11 @@ PointValue PointValues::at(const Vec3d& x, const Vec3d& normal, double reach) co
     return {value, std::isfinite(value) ? 1.0f : 0.0f};
 }
 
+/// The weighted mean over balls, in three steps: a bound of the least power from some ball near,
+/// the least power, and the sums.
 PointValue PointValues::blended(const Vec3d& x, double reach) const
 {
-    // The least power, from the balls that are near enough to have it.
+    // An upper bound of the least power, from the first balls that a growing search meets.
     double least = std::numeric_limits<double>::max();
     for (double within = 0.5; least == std::numeric_limits<double>::max(); within *= 2.0) {
         index_.forEachNear(x, x, within, [&](const Ball& ball, std::int32_t) {
@@ -88,13 +90,14 @@ PointValue PointValues::blended(const Vec3d& x, double reach) const
         if (within >= reach) break;
     }
     if (least == std::numeric_limits<double>::max()) return {missing, 0.0f};
-    // Balls whose power is within farthestE of it: (r + gap)^2 - r^2 is that.
+    // A ball of radius r farther off than gap has more power than (r + gap)^2 - r^2, which for the
+    // smallest r, and so for each, is at least `power`.
     const double power = std::max(least, 0.0) + farthestE;
     const double gap = std::sqrt(smallest_ * smallest_ + power) - smallest_;
     index_.forEachNear(x, x, gap, [&](const Ball& ball, std::int32_t) {
         least = std::min(least, powerOf(ball, x));
     });
-    const double none = std::exp(-farthestE / softness);
+    const double none = std::exp(-farthestE / softness); // less this, weights end at 0
     double all = 0.0, known = 0.0, sum = 0.0;
     index_.forEachNear(x, x, gap, [&](const Ball& ball, std::int32_t i) {
         const double e = powerOf(ball, x) - least;

@@ -26,7 +26,7 @@ bool isFlat(const BallValues& values);
 /// Whether colours show values of points that nearby balls may share.
 bool isBlended(const BallSet& atoms, ColorBy by);
 
-/// The colour of every ball, neutral where it has no value.
+/// The colour of every ball: noValueColor without a value, neutral if the scale has no range.
 std::vector<Color> valueColors(const BallValues& values);
 
 /// The value of a point, and how much of it there is.
@@ -58,7 +58,7 @@ public:
     std::vector<PointValue> on(const openvdb::BoolGrid& voxels, const openvdb::FloatGrid& surface,
                                double reach, const Progress& progress) const;
 
-    /// The colour of such a value, mixed with the neutral one as far as balls have none.
+    /// The colour of such a value, mixed with noValueColor by the weights that have none.
     Color colorOf(const PointValue& value) const;
 
 private:
