@@ -50,6 +50,7 @@ void joinRings(Mesh& mesh)
     }
 }
 
+/// Adds a ring of vertices about a center, with normals outward in its plane, plus `tilt`.
 void addRing(const Vec3d& center, const Vec3d& u, const Vec3d& v, const Vec3d& tilt, Mesh& mesh)
 {
     for (int k = 0; k < circle; ++k) {
@@ -66,6 +67,8 @@ void addBall(const Vec3d& at, double radius, const Color& color, AtomModel& mode
         {BallPart, "", {{{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, at, color});
 }
 
+/// Adds a copy of the stick, which goes from 0 to 1 along z with radius 1: the columns of its
+/// matrix take x and y to two radii, and z to the whole way.
 void addStick(const Vec3d& from, const Vec3d& to, double radius, const Color& color,
               AtomModel& model)
 {
@@ -118,6 +121,8 @@ private:
         return {chain.substr(0, dash), chain.substr(dash)};
     }
 
+    /// Finds the atoms of the file's links by their names. Links name chains of the file, and hold
+    /// within each copy of them.
     void addLinks(const ShownAtoms& shown)
     {
         std::map<FileBonds::End, std::vector<std::size_t>> ends; // by names in the file
@@ -135,7 +140,7 @@ private:
                 break;
             }
         }
-        const auto chainOf = [&](std::size_t i) {
+        const auto chainOf = [&](std::size_t i) { // which copy, "" or "-2"
             return copyOf(names_.residues[std::size_t(names_.residueOf[i])].labelChain).second;
         };
         for (const FileBonds::Link& link : shown.bonds->links)
@@ -259,7 +264,7 @@ Vec3d asideOf(const Bond& bond, const std::vector<Bond>& bonds,
     return any.length() > least ? any.unit() : perpendicular(along)[0];
 }
 
-/// A row of short sticks.
+/// A row of short sticks: each has the middle half of a third of the line.
 void addDashes(const Vec3d& a, const Vec3d& b, double radius, const Color& ofA, const Color& ofB,
                AtomModel& model)
 {
@@ -323,7 +328,8 @@ std::array<Vec3d, 2> onCurve(const std::array<Vec3d, 4>& p, double t)
     return {p[1] + t * (a + t * (b + t * c)), a + t * (2.0 * b + t * 3.0 * c)};
 }
 
-/// A tube through at least two points, with round ends.
+/// A tube through at least two points, with round ends: rings along the cubics between them, each
+/// turned from the one before by parallel transport. Beyond the ends the curve goes on straight.
 void addTube(const std::vector<Vec3d>& points, const Color& color, AtomModel& model)
 {
     constexpr int pieces = 8; // between two points
@@ -339,8 +345,7 @@ void addTube(const std::vector<Vec3d>& points, const Color& color, AtomModel& mo
         const double t = double(n) / pieces - double(i);
         const auto [at, along] = onCurve({point(i - 1), point(i), point(i + 1), point(i + 2)}, t);
         const Vec3d way = along.lengthSqr() > 0.0 ? along.unit() : Vec3d(0, 0, 1);
-        // The ring turns as little as it can.
-        u -= u.dot(way) * way;
+        u -= u.dot(way) * way; // the last ring's, at right angles to the way
         u = u.lengthSqr() > 1e-6 ? u.unit() : perpendicular(way)[0];
         addRing(at, tubeRadius * u, tubeRadius * way.cross(u), Vec3d(0.0), model.mesh);
         std::fill(model.mesh.colors.end() - circle, model.mesh.colors.end(), color);
@@ -417,7 +422,8 @@ double bytesOfTubes(const BallSet& atoms)
     return bytesPerBackboneAtom * double(count);
 }
 
-/// A ball, a stick, and no tube.
+/// The parts in the order of Part: a ball of radius 1, a stick along z of radius and length 1, and
+/// a tube without triangles yet.
 AtomModel emptyModel()
 {
     AtomModel model;

@@ -43,11 +43,12 @@ std::uint8_t byteOf(float light)
     return bytes[std::size_t(std::clamp(light, 0.0f, 1.0f) * float(last) + 0.5f)];
 }
 
-/// Light and how much of what is behind it hides, as it comes from a pixel.
+/// Light from a pixel, already times its cover, which is the share that it hides of what is behind.
 struct Light {
     Vec3f light{0.0f};
     float cover = 0.0f;
 
+    /// The compositing "over" of Porter and Duff.
     void addBehind(const Light& other)
     {
         light += (1.0f - cover) * other.light;
@@ -90,6 +91,8 @@ private:
 
     std::size_t columns() const { return std::size_t(subpixels * view_.width); }
 
+    /// The mean of a pixel's samples, each with the ink of lines over its colour.
+    /// @param[in] ink  of samples, from 0 to 255; empty: there are no lines
     Light pixelOf(const Layer& layer, const std::vector<std::uint8_t>& ink, int x, int y) const
     {
         Light out;
@@ -113,7 +116,7 @@ private:
         return out;
     }
 
-    /// More light is held back by what is seen from the side, as of a thin skin.
+    /// The law of Beer and Lambert for a thin skin: a slanted ray goes 1 / cosine as far in it.
     float opacityOf(const Seen& seen) const
     {
         const bool solid = options_.glass && seen.color != *options_.glass;
@@ -122,6 +125,8 @@ private:
         return 1.0f - std::pow(1.0f - float(options_.opacity), 1.0f / facing);
     }
 
+    /// The light of a sample: sky, lamp and a fill light by Lambert's law, a highlight of the lamp
+    /// by Blinn and Phong, and fading with depth. A style without sky has plain colours.
     Vec3f colorOf(const Seen& seen, const Shade& shared) const
     {
         Vec3f color = linearLight(seen.color);
@@ -130,9 +135,9 @@ private:
             const Vec3f fill = Vec3f(0.75f, 0.1f, 0.65f);
             const float seenLamp = 1.0f - style_.shadow * (1.0f - shared.lit);
             const float key = std::max(0.0f, normal.dot(Tracer::lamp())) * seenLamp;
-            // Where little of the sky is seen little comes from other walls either.
-            const float open =
-                shared.open * std::sqrt(shared.open); // walls are darker than the sky
+            // Walls that hide the sky give back less the deeper the hollow is: the share of sky
+            // counts with the power 1.5, and dims lamp and fill too.
+            const float open = shared.open * std::sqrt(shared.open);
             const float hollow = 0.4f + 0.6f * open;
             const float light =
                 style_.sky * (0.06f + 0.94f * open) +
@@ -147,8 +152,9 @@ private:
         return (1.0f - haze) * color + haze * background_;
     }
 
-    /// The light of a pixel, as the mean of those about it on the same piece of surface: with these
-    /// weights all sixteen patterns of rays count alike.
+    /// The light of a pixel by a bilateral filter: the mean of the pixels with rays about it, up to
+    /// 5 x 5, less of those that face elsewhere or lie at another depth. Those at its rim count
+    /// half, so that all sixteen patterns of rays weigh the same.
     Shade smoothed(const Layer& layer, int x, int y) const
     {
         const PixelLight& here = layer.lights[placeOf(x, y)];
@@ -167,10 +173,10 @@ private:
                 const PixelLight& other = layer.lights[placeOf(i, j)];
                 if (other.depth == Seen::nothing) continue;
                 const float alike = other.normal().dot(normal);
-                // Those that face elsewhere count a little, lest one alone be a speck.
+                // Those that face elsewhere count a little, lest a single one be a speck.
                 float weight = std::clamp(2.5f * (alike - 0.5f), 0.1f, 1.0f);
                 if (std::abs(other.depth - here.depth) > deepest)
-                    weight = 1e-6f; // if there is no other
+                    weight = 1e-6f; // which counts only if there is no other
                 for (const int d : {i - x, j - y})
                     if (d == reach || d == -reach) weight *= 0.5f;
                 open += weight * other.open();
@@ -197,6 +203,7 @@ private:
     std::vector<std::uint8_t> linesOf(const Layer& layer, const Progress& progress) const
     {
         const float scale = 0.5f * float(subpixels) * float(view_.width) / 1000.0f;
+        // By Edge [sample]; styles give widths in pixels of a picture that is 1000 wide.
         const std::vector<float> radii = {0.0f, scale * style_.outline, scale * style_.crease};
         if (radii[Jump] == 0.0f && radii[Crease] == 0.0f) return {};
         const float jump = float(std::max(outlinePixels * view_.pixel, outlineLength));
@@ -246,6 +253,7 @@ Picture blank(const DrawOptions& options, int height)
 
 } // namespace
 
+/// Depth peeling: layers from front to back, each composed behind those before; background last.
 Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress)
 {
     if (mesh.triangles.empty()) return blank(options, options.width);
@@ -258,7 +266,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
         std::optional<Tracer> tracer(std::in_place, mesh, view, style, options);
         const Painter painter(view, style, options);
         Layer layer = tracer->first(progress);
-        if (layers == 1) tracer.reset(); // its memory is that of the lines
+        if (layers == 1) tracer.reset(); // lines need its memory
         lights.resize(std::size_t(view.width) * std::size_t(view.height));
         painter.add(layer, progress, lights);
         for (int n = 1; n < layers && !layer.empty; ++n) {

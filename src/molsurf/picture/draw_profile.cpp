@@ -124,6 +124,7 @@ Chart chartOf(const Report::Pore& pore, int width)
                                chartInk, width / 500.0});
     }
     const auto& least = *std::min_element(pore.stations.begin(), pore.stations.end(), narrower);
+    // The number is centred on the line, but near an end of the chart shifted inward.
     const double share = least.distance / to.length;
     chart.lines.push_back({to.x(least.distance), to.y(least.radius), to.x(least.distance), to.top,
                            chartGrey, width / 1200.0});
@@ -145,6 +146,7 @@ void blend(int x, int y, const Color& color, double share, Picture& picture)
     }
 }
 
+/// Fills columns of pixels; one that the area covers in part is mixed by that share.
 void fillArea(const ChartLine& line, Picture& picture)
 {
     for (int x = int(std::ceil(line.x0)); x < int(std::ceil(line.x1)); ++x) {
@@ -157,6 +159,7 @@ void fillArea(const ChartLine& line, Picture& picture)
     }
 }
 
+/// Draws a line with round ends: pixels by their distance from it, with a rim one pixel wide.
 void strokeLine(const ChartLine& line, Picture& picture)
 {
     const double half = 0.5 * std::max(line.width, 1.0), dx = line.x1 - line.x0,

@@ -42,6 +42,7 @@ void forEachLetter(const std::string& text, const F& f)
                          : first >= 0xE0 && first < 0xF0 ? 2
                          : first >= 0xF0 && first < 0xF5 ? 3
                                                          : -1;
+        // The first byte has 5, 4 or 3 bits of the code, each further one 6.
         std::uint32_t code = more < 0 ? 0xFFFD : more == 0 ? first : first & (0x3F >> more);
         for (int k = 0; k < more; ++k) {
             if (i == text.size() || (byte(i) & 0xC0) != 0x80) {

@@ -121,7 +121,8 @@ Layer Tracer::behind(const Layer& front, const Progress& progress) const
 Layer Tracer::trace(const Layer* front, const Progress& progress) const
 {
     const auto width = std::size_t(view_.width), height = std::size_t(view_.height);
-    // Rays miss what is thinner than a pixel, as bonds may be, and what begins behind a mean.
+    // A ray through one sample of four would miss thin bonds; and layers behind need exact depths
+    // to begin at, which means have not.
     const bool sparse = isSparse(options_) && options_.opacity >= 1.0 && !atoms_;
     Layer layer;
     layer.seen.resize(samplesPerPixel * width * height);
@@ -284,8 +285,8 @@ PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const
                  double(seen.depth) * view_.toEye;
         }
     }
-    // Light comes through walls that let it through: behind them no wall is in the dark, and atoms
-    // are in that of each other alone.
+    // Walls that are seen through let light through: walls behind them have no shadow, and atoms
+    // there only that of each other.
     if (light.depth == Seen::nothing || (!isFirst && !isAtom)) return light;
     const int step = lightStep(options_);
     const int left = x - x % step, top = y - y % step;
@@ -401,9 +402,9 @@ double Tracer::lengthTo(double length, const Vec3d& from, const Vec3d& way) cons
     return std::max(0.0, std::min(length, left / rise));
 }
 
-/// How many rays meet nothing.
-/// @param[in] lengths  of the rays, which `rays` has as far as the surface is not cut away
-/// @param[in] among    whether atoms alone are in the way
+/// How many rays meet nothing. Embree makes tfar negative for those that do.
+/// @param[in] lengths  of the rays to atoms; those in `rays` end where the surface is cut away
+/// @param[in] among    whether only atoms are in the way
 template<std::size_t count, typename Rays>
 std::uint8_t Tracer::freeRays(const std::array<double, count>& lengths, bool among,
                               Rays& rays) const
@@ -422,11 +423,13 @@ std::uint8_t Tracer::freeRays(const std::array<double, count>& lengths, bool amo
         std::count_if(rays.tfar, rays.tfar + count, [](float left) { return left >= 0.0f; }));
 }
 
-/// Rays that reach the sky over a point, weighted by the cosine: by a golden spiral. To every other
-/// ray only what is near hides the sky, so that the insides of shells are not all dark.
+/// Rays that reach the sky over a point (ambient occlusion). They are even over the disc below the
+/// sky, by a golden spiral, and so weighted by the cosine (Malley's method). For every other ray
+/// only what is near hides the sky, so that the insides of shells are not all dark.
 std::uint8_t Tracer::skyRaysAt(const Vec3d& at, const Vec3d& normal, bool among, int pattern) const
 {
     const auto [u, v] = perpendicular(normal);
+    // Off the surface, lest rays meet it where they start.
     const Vec3d from = at + 1.5 * view_.pixel * normal + 1e-3 * view_.toEye;
     alignas(32) RTCRay8 rays{};
     std::array<double, skyRays> lengths;
@@ -442,7 +445,8 @@ std::uint8_t Tracer::skyRaysAt(const Vec3d& at, const Vec3d& normal, bool among,
     return freeRays(lengths, among, rays);
 }
 
-/// Rays that reach the lamp, a disc.
+/// Rays that reach the lamp, a disc: one to each ring of equal area, whose place in it varies with
+/// the pattern.
 std::uint8_t Tracer::lampRaysAt(const Vec3d& at, const Vec3d& normal, bool among, int pattern) const
 {
     if (normal.dot(lamp_) <= 0.0) return 0;

@@ -19,8 +19,8 @@ namespace molsurf
 std::string legendSvg(const std::vector<Legend>& legends, const Color& background);
 
 /// Writes legendSvg().
-/// @throws Error(ErrorKind::Input) if there is none, Error(ErrorKind::Output) if the file cannot be
-/// written
+/// @throws Error(ErrorKind::Input) if there is none
+/// @throws Error(ErrorKind::Output) if the file cannot be written
 void writeLegendSvg(const std::vector<Legend>& legends, const Color& background, OutputFile& file);
 
 } // namespace molsurf

@@ -22,7 +22,7 @@ std::vector<std::uint8_t> inkOf(std::size_t width, const std::vector<std::uint8_
     const float widest = *std::max_element(radii.begin(), radii.end());
     const auto reach = std::ptrdiff_t(std::ceil(widest + 0.5f));
     std::vector<std::uint8_t> ink(edges.size(), 0);
-    parallelFor(height, progress, [&](std::size_t row) { // of its own row alone
+    parallelFor(height, progress, [&](std::size_t row) { // each writes only its row
         const auto y = std::ptrdiff_t(row);
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(y - reach, 0);
              j <= std::min(y + reach, rows - 1); ++j) {

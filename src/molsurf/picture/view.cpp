@@ -62,7 +62,7 @@ public:
         if (!vertices_) addSpan(mesh, options.instances, manyDirections, others_);
         const AtomModel* model = options.model.get();
         if (!model) return;
-        const int directions =
+        const int directions = // fewer of many atoms, for some 200000 points in all
             std::clamp(int(200000 / model->instances.size()), 20, manyDirections);
         addSpan(model->mesh, model->instances, directions, others_);
     }
@@ -87,7 +87,8 @@ private:
     std::vector<Vec3d> others_;
 };
 
-/// Principal axes of points, the longest first.
+/// Principal axes of points, those of their covariance, the longest first. The largest component of
+/// each is positive, lest signs be left to chance.
 std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points)
 {
     Vec3d mean(0.0);

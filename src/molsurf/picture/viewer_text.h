@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The files of viewer/, as text; made by the build. For write_html.cpp alone.
+/// The files of viewer/, as text; made by the build. Only for write_html.cpp.
 
 namespace molsurf
 {

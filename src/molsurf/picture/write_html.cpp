@@ -111,7 +111,7 @@ Json modeOf(const Legend& legend, const Mesh& mesh, const std::string& level, Ar
         const double low = legend.scale->low, range = legend.scale->high - low;
         const bool missing = std::any_of(scalar->values.begin(), scalar->values.end(),
                                          [](float value) { return !std::isfinite(value); });
-        const double last = missing ? 254.0 : 255.0;
+        const double last = missing ? 254.0 : 255.0; // 255 is no value then
         arrays.add(legend.attribute + level, scalar->values.size(), 1, 1, [&](std::size_t i, int) {
             const double value = double(scalar->values[i]);
             if (!std::isfinite(value)) return std::uint32_t(255);
@@ -213,6 +213,7 @@ Json copiesOf(const std::vector<MeshInstance>& instances, const openvdb::Vec3d& 
 Json namesOf(const HtmlPage& page, Arrays& arrays)
 {
     const BallNames& names = *page.names;
+    // 0 marks what is used, until its index on the page takes the place of that.
     std::vector<std::int32_t> placeOf(names.atoms.size(), -1);
     for (const std::int32_t ball : page.ballOf)
         if (ball >= 0) placeOf.at(std::size_t(ball)) = 0;
