@@ -142,7 +142,7 @@ void foldClasses(const BallSet& atoms, Legend& legend)
     for (LegendEntry& entry : legend.entries) entry.name.erase(0, word.size());
 }
 
-/// A row of what labels tell, with a colour for each name.
+/// A row of colours by labels, with a colour for each name.
 ColorKind byLabels(ColorBy by, const char* word, const char* title, const char* attribute = "")
 {
     ColorKind kind{by, word, title, attribute};
@@ -292,7 +292,7 @@ ColorKind byCurvature(ColorBy by, const char* word, const char* title, const cha
     return kind;
 }
 
-/// The pockets that vertices are the walls of, which addPockets() tells.
+/// The pockets that vertices are the walls of, which addPockets() labels.
 ColorKind byPocket()
 {
     ColorKind kind{ColorBy::Pocket, "pocket", "Pocket", "pocket"};

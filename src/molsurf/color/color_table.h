@@ -27,7 +27,7 @@ struct ColorKind {
     const char* help = "";                       ///< what a help text adds to the word
     bool ofCurvature = false;                    ///< whether vertices have it, and not balls
     bool ofChains = false;                       ///< whether each chain has a colour of its own
-    bool complete = true;                        ///< whether its word alone asks for it
+    bool complete = true;                        ///< whether its word is enough to ask for it
     bool offered = false;                        ///< whether pages offer it without being asked
     const char* needs = nullptr;                 ///< what balls need for it, in words
     bool (*has)(const BallSet& atoms) = nullptr; ///< whether they have that

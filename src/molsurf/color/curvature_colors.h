@@ -27,7 +27,7 @@ ColorScale curvatureScale(const std::vector<float>& curvature,
 /// Colours a mesh by one of its curvatures, if `by` is one.
 void colorByCurvature(ColorBy by, const SelectOptions::Coloring& options, Mesh& mesh);
 
-/// A grid Cd for each curvature grid of the name that `by` stands for, by the scale of the mesh:
+/// A grid Cd for each curvature grid of the name that `by` has, by the scale of the mesh:
 /// "Cd", or with parts "Cd_NAME".
 openvdb::GridPtrVec curvatureColors(ColorBy by, const SelectOptions::Coloring& options,
                                     const Mesh& mesh, const openvdb::GridPtrVec& fields);

@@ -21,7 +21,7 @@ namespace molsurf
 struct LegendEntry {
     std::string name;
     Color color;
-    bool seen = true; ///< whether anything has it; if not it keeps the place of its value alone
+    bool seen = true; ///< whether anything has it; if not it only keeps the place of its value
 };
 
 /// A scale of values, or a list of names.

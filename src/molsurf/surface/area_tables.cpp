@@ -324,7 +324,7 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     Numbers alone, together, buried, area;
     std::array<Numbers, 4> fits;
     for (const Report::Interface& interface : report.interfaces) {
-        // By residue, those of the first group first: the areas alone, and together.
+        // By residue, those of the first group first: the areas apart, and together.
         std::map<std::pair<bool, std::int32_t>, std::pair<double, double>> sums;
         for (const Report::Interface::Buried& b : interface.buried) {
             auto& sum = sums[{!b.ofFirst, names.residueOf[b.ball]}];

@@ -16,7 +16,7 @@
 namespace molsurf
 {
 
-/// |grad psi| on the surface of each ball alone [1/Å].
+/// |grad psi| on the surface of each ball by itself [1/Å].
 /// @param[in] decays  one a ball, or none
 std::vector<double> slopesOf(const std::vector<Ball>& balls, const GaussianOptions& options,
                              const std::vector<Decay>& decays);

@@ -47,7 +47,7 @@ std::string gridName(const openvdb::GridBase& grid)
     return "grid '" + grid.getName() + "'";
 }
 
-/// The level set that stands for the surface.
+/// The level set of the surface.
 FloatGrid::Ptr findLevelSet(const openvdb::GridPtrVec& grids)
 {
     std::vector<FloatGrid::Ptr> found;

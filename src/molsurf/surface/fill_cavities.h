@@ -30,7 +30,7 @@ void fillInLevelSet(const std::vector<LeafMask>& cavities, const LeafTable& S, S
 void fillInCarrier(const std::vector<LeafMask>& cavities, const LeafTable& S, SparseField& carrier,
                    const Progress& progress);
 
-/// Closes the cavities of a surface in its own distance, which changes about them alone.
+/// Closes the cavities of a surface in its own distance, which changes only about them.
 /// @param[in] cavities  one mask a leaf of S
 void fillInDistance(const std::vector<LeafMask>& cavities, SparseField& S,
                     const Progress& progress);

@@ -46,7 +46,7 @@ Areas areasOf(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls, Progr
 /// Areas that two groups bury of each other's balls. As both lists and the balls of `together` are
 /// ascending, it steps through the two lists as a merge does.
 /// @param[in] groups    indices of their balls, ascending
-/// @param[in] alone     areas of each group alone
+/// @param[in] alone     areas of each group by itself
 /// @param[in] together  of both, the balls in ascending order
 /// @param[in] least     change of a ball that counts [Å^2]
 std::vector<Report::Interface::Buried>

@@ -17,7 +17,7 @@ namespace molsurf
 /// that the options ask for; to the fields the grids atom_id, chain_id, group_id and Cd that they
 /// ask for; to the report the groups with their areas (in closed form where there is one, else of
 /// the triangles, scaled to the area of the smooth surface) and volumes (shares of 1e5 to 1e6
-/// points inside). Without a grid the report alone.
+/// points inside). Without a grid only to the report.
 ///
 /// @param[in] known  areas of the balls in closed form [Å^2]; empty: there are none
 /// @param[in] reach  farthest that a point of the surface may lie from the balls [Å]

@@ -9,7 +9,7 @@
 namespace molsurf
 {
 
-/// Surfaces every group alone (SurfaceOptions::split, or prototypes), or those of
+/// Surfaces every group by itself (SurfaceOptions::split, or prototypes), or those of
 /// SurfaceOptions::surfaceOf alone and the other atoms together.
 ///
 /// The result has no grid `surface`, but a level set `surface_NAME` a part, all with one transform

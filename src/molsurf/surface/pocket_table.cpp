@@ -33,7 +33,7 @@ double chargeOf(const std::string& residue)
     return name == "ASP" || name == "GLU" ? -1.0 : 0.0;
 }
 
-/// A number without the digits that voxels do not tell.
+/// A number without the digits that voxels do not resolve.
 double digitsThatHold(double number)
 {
     return std::strtod(formatted("%.7g", number).c_str(), nullptr);

@@ -24,8 +24,8 @@ Color pocketColor(std::size_t number);
 bool wantsPockets(const SurfaceOptions& options);
 
 /// Puts the pockets of the balls in a report, the grids of them that are asked for in its fields
-/// (all, where it has no other grid),
-/// and, if colours are by pocket, the label `pocket` and colours at the vertices of the mesh.
+/// (all, where it has no other grid), and, if colours are by pocket, the label `pocket` and colours
+/// at the vertices of the mesh.
 /// @param[in] options  that want them
 void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
                 MolecularSurface& result);

@@ -43,7 +43,7 @@ SurfaceSpec areasShown(const SurfaceOptions& options)
     return ofKind(options, options.areasOf.value_or(options.kind));
 }
 
-/// Areas of atoms on a surface that is made for them alone.
+/// Areas of atoms on a surface that is made only to measure them.
 std::vector<double> areasApart(const BallSet& atoms, const SurfaceSpec& spec, Progress& progress)
 {
     if (!isClosedForm(spec)) {

@@ -49,7 +49,7 @@ T parsedValue(const std::string& option, const std::string& expected, const std:
 std::array<std::uint8_t, 3> colorValue(const std::string& option, const std::string& more,
                                        const std::string& word);
 
-/// The colours whose word alone asks for them.
+/// The colours whose word is enough to ask for them.
 std::vector<ColorBy> completeColors();
 
 /// Their words for a help text, but that of none, with what it adds to them.

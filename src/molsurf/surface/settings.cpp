@@ -84,7 +84,7 @@ Setting text(const char* name, const char* value, std::string help, const char* 
     return row;
 }
 
-/// A value that a text stands for, which textOf() gives back.
+/// The value of a text, which textOf() gives back.
 /// @param[in] none  the text of no value
 template<typename Of, typename Parse>
 Setting parsed(const char* name, const char* value, std::string help, const char* none,
@@ -114,7 +114,7 @@ bool evolves(const KindRow& kind)
     return kind.hasFlow;
 }
 
-/// The row of what changes surfaces of some kinds alone.
+/// The row of a setting that only some kinds of surface have.
 Setting onlyOf(bool (*such)(const KindRow&), Setting row)
 {
     for (const KindRow& kind : kindTable())
@@ -370,7 +370,7 @@ std::vector<Setting> meshSettings()
         constexpr double more = 1.18;
         s.options.meshEdge = std::sqrt(2.0 * more / (std::sqrt(3.0) * s.options.meshEdge));
     };
-    density.get = nullptr; // files tell of `remesh`
+    density.get = nullptr; // files store `remesh` instead
     return {optionalNumber("remesh", "L", "triangles of even shape, with edges near L [Å]",
                            "0.05 to 10 Å", {0.05, 10.0}, MOLSURF_OF(options.meshEdge)),
             density,

@@ -196,7 +196,7 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
                               const Progress& progress)
 {
     constexpr std::size_t chunk = 1024;
-    constexpr double leastShare = 0.2; // of the slope where a ball is alone, as in flow/rest.cpp
+    constexpr double leastShare = 0.2; // of the slope of a lone ball, as in flow/rest.cpp
     const EvolveOptions flow = flowOptions(spec);
     const Weights weights = weightsOf(flow);
     const GaussianOptions gaussian = gaussianOptions(spec);

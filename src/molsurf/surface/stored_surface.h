@@ -33,7 +33,7 @@ void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fiel
                       const Progress& progress, openvdb::MetaMap& metadata);
 
 /// The surface that a .vdb of this program holds, or any level set: see operandOf(). Scene
-/// conventions that the metadata tell of are undone, but the place of the origin.
+/// conventions that the metadata name are undone, but the place of the origin.
 ///
 /// A vertex has the identities and stored colours of the nearest voxel.
 ///

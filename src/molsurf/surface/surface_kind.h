@@ -122,7 +122,7 @@ std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceSpec& spec);
 
 /// Does nothing if the largest ball is as large as a voxel.
 /// @param[in] what  is wrong with the surface
-/// @throws Error(ErrorKind::Numeric) that says so and names a voxel that is small enough
+/// @throws Error(ErrorKind::Numeric) with that and a voxel that is small enough
 void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
                      const SurfaceSpec& spec);
 

@@ -108,7 +108,7 @@ UnitShare shareOfUnit(const BallSet& atoms, double grown, const Progress& progre
 
     UnitShare sum;
     sum.areas.assign(balls.size(), 0.0);
-    // Of balls in one place the first stands for all: between two that are not quite equal lies a
+    // Of balls in one place only the first is kept: between two that are not quite equal lies a
     // circle with a direction of its own in each unit.
     std::vector<Ball> single;
     std::vector<double> weights; // the unit's parts of these
