@@ -3,7 +3,7 @@
 
 /// @file
 /// The result of a brick on disk: leaves as a .vdb holds them and vertices as a .ply does, ready to
-/// be copied, and a JSON header that tells where they are.
+/// be copied, and a JSON header with their places.
 
 #include "molsurf/bricks/brick.h"
 #include "molsurf/core/file_descriptor.h"

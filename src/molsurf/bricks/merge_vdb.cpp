@@ -142,7 +142,7 @@ void checkNodes(std::vector<std::array<std::int32_t, 3>> origins)
                     "merge: the leaves of the bricks are too far from each other");
 }
 
-/// Whether bytes are the values of a leaf, as OpenVDB reads them, and those that the leaf tells.
+/// Whether bytes are the values of a leaf, as OpenVDB reads them, and agree with the leaf.
 template<typename LeafT>
 bool holds(const StoredLeaf& stored, std::string bytes, const StoredGrid& grid,
            const typename LeafT::ValueType& background, std::uint32_t compression)

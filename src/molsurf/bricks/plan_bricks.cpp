@@ -45,7 +45,7 @@ constexpr double bytesPerCoarseLeaf = 2.2e3;    // of the whole at rest on voxel
 constexpr double bytesPerMeshLeaf = 11e3;       // within the halo of the spline
 constexpr double bytesPerUnionLeaf = 14.5e3;    // the same where the surface may pass each atom
 constexpr double sharePerProbe = 0.4;           // fewer of both, for each Å of the probe
-constexpr double bytesPerExcludedBall = 3.9e3;  // ses in closed form, which a whole alone has
+constexpr double bytesPerExcludedBall = 3.9e3;  // ses in closed form, which only a whole has
 constexpr double fewerPerProbe3 = 0.63;         // of these, for each Å^3 of the probe's cube
 constexpr double bytesPerKeptLeaf = 7e3; // of the flow, where these are kept for the next brick
 constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
@@ -76,7 +76,7 @@ constexpr double bytesToMerge =
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
 constexpr int smallest = 4;             // leaves along the shortest edge of a brick that is cut
 
-/// One of so many places, chosen by their numbers alone.
+/// One of so many places, chosen only by their numbers.
 struct Sample {
     unsigned every = 1;
 
@@ -139,7 +139,7 @@ void addShell(const Vec3d& centre, double inner, double outer, double edge, cons
     }
 }
 
-/// Whether a ball has so many leaves inside that its shell alone is taken.
+/// Whether a ball has so many leaves inside that only its shell is taken.
 bool isLarge(const Ball& ball, double edge)
 {
     constexpr double many = 4.0;

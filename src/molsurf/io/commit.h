@@ -8,7 +8,7 @@
 /// complete. While it is there they are put in their places. Whoever comes after a killed process
 /// does what its records say, and removes what no record names. Each folder has a record of its own
 /// files; that of the first one names the other folders, and theirs name the first one. So a record
-/// can rename the temporary files of its maker alone, within its folder, and a folder from
+/// can rename only the temporary files of its maker, within its folder, and a folder from
 /// elsewhere does no harm.
 
 #include "molsurf/io/output_file.h"

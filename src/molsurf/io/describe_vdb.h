@@ -9,7 +9,7 @@
 namespace molsurf
 {
 
-/// Reads an OpenVDB file and describes it in lines of name and value. Of level sets it tells area
+/// Reads an OpenVDB file and describes it in lines of name and value; level sets also by area
 /// and volume.
 /// @throws Error(ErrorKind::Input) if the file cannot be read
 std::string describeVdb(const std::string& path);

@@ -60,7 +60,7 @@ std::string hint(int reason)
     refuse(path, "it exists already [hint: `force` replaces it]");
 }
 
-/// Gives a file a second name; where a file system knows no such thing, that one alone.
+/// Gives a file a second name; where a file system knows no such thing, only that one.
 bool alsoNamed(const std::string& path, const std::string& name)
 {
     return link(path.c_str(), name.c_str()) == 0 || (errno != ENOENT && moveFile(path, name, true));

@@ -77,7 +77,7 @@ public:
     const std::string& target() const { return target_; }
     bool replaces() const { return replaces_; }
 
-    /// The renaming alone.
+    /// Only renames.
     /// @param[in] keeping  a file that is replaced stays under keptName(), until dropOld()
     void place(bool keeping);
 

@@ -52,7 +52,7 @@ Mesh parseText(std::string_view content)
 
 Mesh parseStl(std::string_view content)
 {
-    // Some binary files begin with "solid" too; their size tells them.
+    // Some binary files begin with "solid" too; their size shows it.
     std::uint32_t count = 0;
     if (content.size() >= headSize) std::memcpy(&count, content.data() + 80, sizeof count);
     const std::size_t expected = headSize + count * triangleSize;

@@ -12,7 +12,7 @@ namespace molsurf
 
 /// A key of the report.
 struct ReportKey {
-    const char* path;    ///< "surface.area"; "[]" stands for each item of a list
+    const char* path;    ///< "surface.area"; "[]" is for each item of a list
     const char* unit;    ///< "Å²"; empty: none
     const char* meaning; ///< a sentence without its full stop
 };

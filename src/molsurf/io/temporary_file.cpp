@@ -188,7 +188,7 @@ FileDescriptor lockAbandoned(const std::string& name, const std::string& maker)
 {
     FileDescriptor file = openOwn(name);
     if (!file) return file;
-    // A lock that is free tells for every machine. Without locks the maker tells of this one.
+    // A free lock proves it on every machine. Without locks the maker is looked up on this one.
     const bool free =
         flock(file.get(), LOCK_EX | LOCK_NB) == 0 || (errno != EWOULDBLOCK && isGone(maker));
     return free && access(name.c_str(), F_OK) == 0 ? std::move(file) : FileDescriptor();

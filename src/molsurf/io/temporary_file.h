@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Files and folders that stand for an output until it is complete. Each is locked (flock) by the
-/// process that made it, and its name tells which one that was, so that others find out whether it
+/// Files and folders in the place of an output until it is complete. Each is locked (flock) by the
+/// process that made it, and its name identifies that process, so that others find out whether it
 /// is still at work: by the lock, and on the same machine also where a file system has no locks.
 
 #include "molsurf/core/file_descriptor.h"
@@ -57,7 +57,7 @@ FileDescriptor lockAbandoned(const std::string& name, const std::string& maker);
 /// @return false if that fails, with errno: EEXIST if it may not @a replace another file
 bool moveFile(const std::string& from, const std::string& to, bool replace);
 
-/// Waits until the names in a folder are on the disk, where the file system can tell.
+/// Waits until the names in a folder are on the disk, where the file system supports that.
 void syncFolder(const std::string& folder);
 
 } // namespace molsurf

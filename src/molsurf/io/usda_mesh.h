@@ -26,7 +26,7 @@ struct UsdaMesh {
     std::optional<int> time{};   ///< values are a sample at this time; none: they are constant
     double velocityFactor = 1.0; ///< of v_x, v_y and v_z, which become `velocities`
     std::vector<std::string> fields{}; ///< scalars of vertices that are primvars, others are not
-    bool declared = false;             ///< properties alone, without values
+    bool declared = false;             ///< only properties, without values
 };
 
 /// The box of a part.

@@ -68,7 +68,7 @@ Mesh comparisonMesh(const Mesh& a, const ComparisonReport& report);
 Legend comparisonLegend(const ComparisonReport& report);
 
 /// Writes the mesh of A with the distances of its vertices from B, and their colours, as .ply. A
-/// comment in the file tells the scale.
+/// comment in the file has the scale.
 void writeComparisonMesh(const Mesh& a, const ComparisonReport& report, OutputFile& file);
 
 } // namespace molsurf

@@ -101,8 +101,8 @@ void putMsmsHeader(TextOutput& out, const char* what, std::size_t rows, const Me
         << formatted("%7zu %7zu  0.00  0.00\n", rows, spheres);
 }
 
-/// Writes a .vert file of MSMS: position [Å], normal, and of face, sphere and kind the sphere
-/// alone, counted from 1; the others are 0.
+/// Writes a .vert file of MSMS: position [Å], normal, and of face, sphere and kind only the
+/// sphere, counted from 1; the others are 0.
 void writeVert(const Mesh& mesh, OutputFile& file)
 {
     TextOutput out(file);

@@ -252,7 +252,7 @@ Json tablesJson(const std::vector<Table>& tables)
     return out;
 }
 
-/// Forgets what is known of a mesh alone.
+/// Sets the keys that only a mesh has to null.
 void dropMesh(Json& surface)
 {
     for (const char* name :
