@@ -53,7 +53,7 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
                  const std::string& id, bool meshed, Terminal& terminal, Clock::time_point start,
                  Report& report);
 
-/// Whether a build can be made in bricks, as far as its options tell.
+/// Whether a build can be made in bricks, as far as its options decide that.
 bool goesInBricks(const Call& call);
 
 /// Limits of a surface by a call and on this machine.

@@ -5,7 +5,7 @@ namespace molsurf::tool
 {
 
 /// The commit of git that the program was built of, 12 digits, with a + if files had changed; empty
-/// if it was built of files alone. cmake/commit_hash.cmake writes it.
+/// if there was no git. cmake/commit_hash.cmake writes it.
 extern const char* const commitHash;
 
 } // namespace molsurf::tool

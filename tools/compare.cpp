@@ -28,7 +28,7 @@ namespace molsurf::tool
 namespace
 {
 
-/// One of the two files, read; of a dry run its cost alone.
+/// One of the two files, read; of a dry run only its cost.
 struct Read {
     std::string path;
     PlannedBrick cost;

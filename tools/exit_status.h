@@ -37,7 +37,7 @@ struct ExitStatus {
     const char* text;
 };
 
-/// All that every verb may have, in order; 3 is of some alone.
+/// All that every verb may have, in order; only some have 3.
 constexpr std::array<ExitStatus, 6> exitStatuses = {
     {{doneStatus, "done"},
      {failedStatus, "failed"},

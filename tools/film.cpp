@@ -44,7 +44,7 @@ struct Coding {
 
 const Coding& codingOf(const std::string& path)
 {
-    // Players take 4:2:0 alone, and those colours for the ones of HD television.
+    // Players take only 4:2:0, and its colours for those of HD television.
     static const std::vector<std::string> yuv = {
         "-vf",
         "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",

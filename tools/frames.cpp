@@ -370,7 +370,7 @@ private:
         if (!range_ && call_.writes(Views)) range_ = rangeOf(call_, balls, result.mesh, terminal_);
     }
 
-    /// Drops the pore of a frame that has none, with the files of it alone.
+    /// Drops the pore of a frame that has none, with the files that are only of it.
     bool goesOnWithout(const Error& error, std::size_t i, BallSet& balls)
     {
         const std::string text = error.what();

@@ -92,7 +92,7 @@ namespace
 {
 
 /// Whether the area still goes one way: from the second to the last third of the steps it changed
-/// by more than half of what it does within the last one. A few steps cannot tell otherwise.
+/// by more than half of what it does within the last one. Fewer than nine steps count as such.
 bool stillTravels(const std::vector<double>& areas)
 {
     const auto third = std::ptrdiff_t(areas.size() / 3);
@@ -210,7 +210,7 @@ void writeOutputs(const Call& call, Terminal& terminal,
         if (!done) timed(secondsSince(start));
         done = true;
     };
-    // Files are written side by side; streams and the report, which tells the time of the
+    // Files are written side by side; streams and the report, which has the time of the
     // others, after them.
     const auto apart = [&](const Output& o) {
         return sideBySide && !o.holds(Numbers) && !isStream(o.path);

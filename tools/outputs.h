@@ -63,8 +63,7 @@ std::string inputStem(const std::string& input);
 
 /// Finds out whether an output can be written.
 /// @throws Error(ErrorKind::Output) as checkWritable(), if the call reads that file, or if a
-/// library
-///         is missing
+///         library is missing
 void checkOutput(const Call& call, const Output& output);
 
 /// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be
@@ -85,7 +84,7 @@ void commitUndisturbed(const OutputFiles& files);
 void recoverOutputs(const Call& call);
 
 /// Writes all files, and only when every one is complete puts them in their place. The report comes
-/// last, because it tells how long the others took; streams, which cannot be taken back, only
+/// last, because it has the times of the others; streams, which cannot be taken back, only
 /// precede the reports. A film of several runs gets what it is to have of this one.
 ///
 /// @param[in] writeOne  writes one of them

@@ -17,7 +17,7 @@ bool wantsBodies(const Call& call);
 /// The options with the fields that bodies are made of.
 SurfaceOptions withBodies(const Call& call);
 
-/// Makes the bodies, and drops the fields that were wanted for them alone.
+/// Makes the bodies, and drops the fields that were wanted only for them.
 /// @param[in,out] result  by withBodies()
 Mesh takeBodies(const Call& call, const Progress& progress, MolecularSurface& result);
 

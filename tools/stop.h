@@ -27,7 +27,7 @@ Ending endingOf(const std::exception& e);
 /// program (by nohup, or a shell for a job in the background) stay ignored; and ignores SIGPIPE and
 /// SIGXFSZ, so that a closed pipe and a file that may not grow are errors of writing. An exception
 /// that nobody can catch (OpenVDB and TBB let std::bad_alloc out of destructors) ends the process
-/// after a line that says so, and without leaving temporary files. To be called by
+/// after a line about it, and without leaving temporary files. To be called by
 /// one thread, before files are written; again where other files follow.
 /// @param[in] temporaries  the files to remove
 void handleSignals(const std::vector<std::string>& temporaries);

@@ -31,7 +31,7 @@ struct StageShare {
 
 /// A progress bar on standard error, if that is a terminal: stage, per cent and time left of the
 /// run where its stages are known, of the stage elsewhere. It is drawn at most ten times a second,
-/// and moves while a stage lasts. Also tells the run to stop after a signal.
+/// and moves while a stage lasts. Also stops the run after a signal.
 class Terminal : public Progress
 {
 public:

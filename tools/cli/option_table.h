@@ -69,7 +69,7 @@ std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given);
 /// "option.NAME.sha256".
 void addOptions(const Call& call, openvdb::MetaMap& map);
 
-/// The tables of areas: "atoms", "residues", "contacts", "interfaces", "forces".
+/// The tables of areas: "atoms", "residues", "contacts", "interfaces", "pockets", "pore", "forces".
 const std::vector<std::string>& areaTables();
 
 /// @throws Error(ErrorKind::Usage)

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// From the words of a command line to a call, or to a text that tells of verbs and options.
+/// From the words of a command line to a call, or to a help text about verbs and options.
 
 #include "cli/call.h"
 

@@ -18,7 +18,7 @@ struct MsmsCall {
     double probe = 1.5;       ///< [Å]
     double density = 1.0;     ///< vertices an Å^2
     double highDensity = 3.0; ///< as given: it is only printed
-    bool header = true;       ///< whether surfaces begin with three lines that tell their size
+    bool header = true;       ///< whether surfaces begin with three lines with their size
     bool all = false;         ///< whether all components are computed, and not the outer one
     bool hydrogens = true;    ///< whether spheres of radius 1.2 Å are used
     bool totals = true;       ///< whether areas are printed

@@ -137,7 +137,7 @@ struct Shares {
 Shares sharesOf(const Mesh& mesh, const std::vector<BoundaryPoint>& points, const Exact& exact,
                 const Progress& progress)
 {
-    // A patch tells a piece if all of its faces lie on that one.
+    // A patch determines a piece if all of its faces lie on that one.
     const BoundaryMeasure& measure = exact.measure;
     constexpr std::int32_t unknown = -1, several = -2;
     std::vector<std::int32_t> ofPatch(exact.boundary.patches.size(), unknown);
@@ -161,7 +161,7 @@ Shares sharesOf(const Mesh& mesh, const std::vector<BoundaryPoint>& points, cons
         sets.join(meshPiece[v], other);
         known[meshPiece[v]] = known[other] = 1;
     }
-    // Numbers of what is known alone.
+    // Numbers for the known ones only.
     Shares out;
     std::vector<std::uint32_t> numbers(size, none);
     const auto shareOf = [&](std::uint32_t i) {
@@ -253,7 +253,7 @@ void addAreas(const Exact& exact, const std::vector<Areas*>& areasOf, MsmsSurfac
     for (std::size_t n = 0; n < ofBalls.size(); ++n) out.excludedOf[n] += ofBalls[n];
 }
 
-/// Keeps some of the vertices of a component, and tells the faces of what is left.
+/// Keeps some of the vertices of a component, and finds the faces of what is left.
 void thinComponent(const Exact& exact, const std::vector<BoundaryPoint>& points, double density,
                    Component& component, const Progress& progress)
 {

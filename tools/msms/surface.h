@@ -62,14 +62,14 @@ SurfaceOptions meshOptions(const std::vector<Ball>& balls, double probe, double 
 ///
 /// A mesh on voxels fine enough gives the topology. Its vertices are put on the surface exactly,
 /// by the nearest point of the boundary of the union of balls of radius r_i + probe, which also
-/// tells their faces (but where faces meet in a crease that the voxels do not resolve). It also
-/// tells which probes have a component in common. Areas are those in closed form, as of
+/// gives their faces (but where faces meet in a crease that the voxels do not resolve). It also
+/// gives the probes that have a component in common. Areas are those in closed form, as of
 /// measureExcluded(), and volumes those of this mesh with curved triangles. Then vertices are taken
 /// away until the density is the one that is wanted.
 ///
 /// @param[in] probe    [Å], >= 0
 /// @param[in] density  vertices an Å^2, in [leastDensity, largestDensity]
-/// @param[in] all      whether all components are wanted, and not the first alone
+/// @param[in] all      whether all components are wanted, and not only the first
 /// @throws Error as makeSurface()
 MsmsSurface msmsSurface(const std::vector<Ball>& balls, double probe, double density, bool all,
                         Progress& progress);

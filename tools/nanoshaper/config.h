@@ -38,8 +38,7 @@ struct Config {
 
 /// Reads a configuration file.
 /// @throws Error(ErrorKind::Input) with the line, if a value is wrong, or asks for what this
-/// program
-///         cannot make
+///         program cannot make
 Config readConfig(const std::string& path);
 
 /// The text of --help, and the manual page, which --man prints.
