@@ -237,7 +237,7 @@ void MergedMesh::pairBorders(SurfaceReport& report) const
              ++i)
             surplus += edges[i].surplus;
         if (surplus != 0) report.closed = false;
-        if (i - begin != 2) report.manifold = false;
+        if (i - begin != 2) report.manifold = false; // a brick on each side
     }
 }
 

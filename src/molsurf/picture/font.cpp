@@ -105,7 +105,7 @@ int Font::width(const std::string& text) const
 
 void Font::draw(const std::string& text, int x, int y, const Color& color, Picture& picture) const
 {
-    FT_Pos at = FT_Pos(x) * 64;
+    FT_Pos at = FT_Pos(x) * 64; // in 1/64 pixel
     forEachLetter(text, [&](std::uint32_t code) {
         if (!face_->load(code)) return;
         const FT_GlyphSlot glyph = face_->face->glyph;

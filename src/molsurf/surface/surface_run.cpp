@@ -298,7 +298,7 @@ void SurfaceRun::levelSet()
                 [&](std::size_t n) { S.table.active(n) &= within(S.leaf(n), float(width)); });
     // Four steps of half a voxel: few values are wrong farther from where sheets of S meet.
     reinitialize(S, width, 4, progress_);
-    // A leaf inside the cut, values are those of the whole surface.
+    // In the outermost leaf of a brick's S, values may differ from those of the whole surface.
     S = clipped(std::move(S), scope_.region.grown(scope_.splineHalo - 1), progress_);
     if (!scope_.keepsMemory) releasePages(); // grids and meshes have memory of their own
     result_.surface = toLevelSet(S, width, progress_);

@@ -391,7 +391,7 @@ private:
         std::vector<char> done(edges_.size(), 0);
         for (std::uint32_t first = 0; first < edges_.size(); ++first) {
             if (edges_[first].partner != noEdge || done[first]) continue;
-            std::vector<UnitEdge> round; // as far as it is no image of its beginning
+            std::vector<UnitEdge> round; // up to `first` or its image in next.unit
             UnitEdge next{0, first};
             do {
                 round.push_back(next);

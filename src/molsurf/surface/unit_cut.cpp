@@ -43,7 +43,7 @@ public:
         return owners_.excess(x, 0, over, near_);
     }
 
-    /// Where the border crosses an edge, moved onto the surface along the border.
+    /// Where the border crosses an edge (regula falsi), moved onto the surface along it (solve()).
     /// @param[in]  own,foreign  its ends
     /// @param[out] other        the owner beyond
     Vec3d crossing(const Vec3d& own, const Vec3d& foreign, std::int32_t& other, Jet& jet)
