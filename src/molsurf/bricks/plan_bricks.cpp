@@ -353,7 +353,7 @@ public:
         const double coarse = startsCoarse(options_) ? bytesPerCoarseLeaf * coarseLeaves() : 0.0;
         const double perLeaf =
             hasFlow(options_.kind) ? bytesPerMeshLeaf : share * bytesPerUnionLeaf;
-        // What follows the flow is made twice, the second time beside the first level set.
+        // The stages after the flow run twice, the second time beside the first level set.
         const double filled = options_.fillCavities ? 1.45 : 1.0;
         const double probe = probeOf(options_);
         const double forClosedForm = excluded_ && box == occupancy_.box

@@ -33,7 +33,7 @@ int leavesFor(double voxels)
 }
 
 /// Fills the places about leaves (26 each) where there is none with tiles of the sign of the
-/// nearest value, since what flood fill makes of a level set that is cut open cannot be trusted.
+/// nearest value. A flood fill of signs would go wrong on a level set that is cut open.
 void closeSides(openvdb::FloatGrid& surface)
 {
     using Leaf = openvdb::FloatTree::LeafNodeType;
@@ -129,8 +129,8 @@ Scope brickScope(const SurfaceOptions& options, const Region& region, const Gaus
     constexpr double overhang = 2.5; // [voxel]
     scope.distanceHalo =
         scope.ridgeHalo + leavesFor(std::max(inside, outside) / options.voxel + overhang);
-    // What a step does at a voxel depends on the three voxels about it, and less by some orders of
-    // magnitude on those of earlier steps, farther out (docs/adr/0013-bricks.md).
+    // A step at a voxel depends on the three voxels about it, and less by some orders of magnitude
+    // on those of earlier steps, farther out (docs/adr/0013-bricks.md).
     scope.flowHalo = scope.distanceHalo + (restsInClosedForm(options) ? 1 : flowLeaves);
     return scope;
 }

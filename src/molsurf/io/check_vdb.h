@@ -20,8 +20,8 @@ struct VdbContent {
 
 /// Follows a .vdb file from its first byte to the end of its last grid, and checks what OpenVDB
 /// believes: lengths of texts and metadata buy memory, a length of packed values says how many
-/// bytes go into an array, places of nodes decide which is freed. What passes is read in memory in
-/// proportion to the size of the file.
+/// bytes go into an array, places of nodes decide which is freed. A file that passes takes memory
+/// in proportion to its size.
 ///
 /// @param[in] stream  at its beginning
 /// @param[in] size    of the file [byte]

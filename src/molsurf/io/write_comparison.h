@@ -46,7 +46,7 @@ struct ComparisonReport {
     std::vector<std::string> warnings;
 };
 
-/// The report as JSON text, indented, with a final line feed. What is not defined is null.
+/// The report as JSON text, indented, with a final line feed. Undefined numbers are null.
 std::string comparisonText(const ComparisonReport& report);
 
 /// Writes comparisonText().

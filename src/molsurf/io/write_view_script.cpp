@@ -58,8 +58,8 @@ std::string forPython(const std::string& text)
     return out + "\"";
 }
 
-/// What the script of PyMOL does with the names `mesh`, `name`, `title` and `legend` that stand
-/// before it: `legend` has label, red, green and blue of each entry, `scale` their numbers or None.
+/// The script of PyMOL, behind lines that set `mesh`, `name`, `title` and lists: `legend` has
+/// label, red, green and blue of each entry, `scale` their numbers or None.
 const char* const pymolText = R"py(
 import os, struct
 import pymol

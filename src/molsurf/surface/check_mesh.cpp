@@ -102,7 +102,7 @@ void warnOfMesh(const SurfaceReport& surface, double voxel, std::vector<std::str
             pieces));
     const double off = 1.0 - *surface.meshArea / surface.area;
     if (std::abs(off) <= most) return;
-    // What a mesh lacks along creases grows with the voxel.
+    // The area that a mesh lacks along creases grows with the voxel.
     const double fine = std::max(0.8 * voxel * most / std::abs(off), minVoxel);
     warnings.push_back(formatted("mesh: its area is %.1f %% %s that of the surface [hint: `voxel` "
                                  "%.2g]",

@@ -31,7 +31,7 @@ MeshTolerance excludedTolerance(const BallBoundary& boundary, const BoundaryMeas
 
 bool isMeasured(const BallSet& atoms, const SurfaceSpec& spec)
 {
-    // What a mesh holds for a cavity may be open to the outside where probes touch each other.
+    // A cavity of the mesh may be open to the outside where probes touch each other.
     const bool filled = spec.fillCavities && offsetOf(spec) > 0.0;
     return isClosedForm(spec) && !filled && !atoms.placement.unit;
 }

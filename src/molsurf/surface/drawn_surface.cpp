@@ -146,9 +146,9 @@ std::vector<Legend> legendsOf(const std::vector<DrawnSurface>& surfaces, const P
 namespace
 {
 
-/// Gives all panels the view direction of the first, but those with an eye of their own, and one
-/// frame size, the largest that any needs. Each panel shows the middle of its structure, unless its
-/// options say what it shows.
+/// Gives all panels the view direction of the first, but those with an eye of their own. All get
+/// one frame size, the largest that any needs. Each panel shows the middle of its structure, unless
+/// its options say what it shows.
 void shareCamera(const std::vector<DrawnSurface>& surfaces, std::vector<DrawOptions>& shots)
 {
     DrawOptions level = shots[0];

@@ -22,7 +22,7 @@
 namespace molsurf
 {
 
-/// A surface and how it is looked at. What it refers to lives longer.
+/// A surface and how it is looked at. Its references live longer.
 struct DrawnSurface {
     const BallSet& atoms;
     const Mesh& mesh;

@@ -13,9 +13,9 @@ namespace molsurf
 {
 
 /// Surfaces every group by itself, and with every other one that is near enough to change its
-/// surface, and reports the buried areas (A_a + A_b - A_ab) / 2 from 0.005 Å^2 on; sets the groups'
+/// surface. Reports the buried areas (A_a + A_b - A_ab) / 2 from 0.005 Å^2 on, and sets the groups'
 /// aloneArea. Of a unit it reports the pairs of a group with another one or with an image, each as
-/// often as the whole has it; an image is there as far as the unit feels it, and what is missing
+/// often as the whole has it. An image is there as far as the unit feels it, and what is missing
 /// changes both areas alike.
 ///
 /// Areas of the solvent-accessible and van der Waals surfaces are in closed form.

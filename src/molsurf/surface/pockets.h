@@ -13,7 +13,7 @@
 namespace molsurf
 {
 
-/// What legends call a pocket.
+/// The name of a pocket in legends.
 /// @param[in] number  from 1
 std::string pocketName(std::size_t number, double volume);
 
