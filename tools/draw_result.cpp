@@ -74,7 +74,7 @@ Call panelCall(Call call)
     return call;
 }
 
-/// What the panel shows, without its surface.
+/// The atoms of a panel, read or `first`, and its view; its surface is made later.
 PanelSurface readPanel(const Call& call, const Panel& what, const BallSet& first,
                        Terminal& terminal)
 {

@@ -30,7 +30,7 @@ struct PanelSurface {
     std::string unrest;  ///< that it is not at rest; empty: it is
 };
 
-/// What decides the surface of a panel, whose kind may be another one.
+/// The options of the surface of a panel, whose kind may be another one.
 SurfaceOptions panelOptions(SurfaceOptions options, const Panel& panel);
 
 /// The name of the first surface among its panels.

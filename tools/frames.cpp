@@ -97,8 +97,8 @@ std::pair<std::string, std::int64_t> madeOf(const Output& output)
     return {made ? made->value() : "", frame ? frame->value() : 0};
 }
 
-// Whether all files of a frame are there, and a grid's metadata or the row in the table show that
-// they are of this frame and these options. It is an error if they are of others.
+// Whether all files of a frame are there, by the metadata of a grid or the row in the table with
+// this frame and these options. It is an error if they are of others.
 bool isDone(const Call& one, const std::string& options, const FrameTable& table,
             const std::string& tableName, std::size_t file)
 {

@@ -18,8 +18,8 @@ extern const char* const programName;
 /// Message when memory runs out; the same.
 extern const char* const noMemoryText;
 
-/// Keeps a file that is opened from becoming standard output, if that is closed. What uses a closed
-/// stream fails as before.
+/// Keeps a file that is opened from becoming standard output, if that is closed. Uses of a closed
+/// stream fail as before.
 void holdStandardStreams();
 
 /// Prints a text on standard output at once, with what was printed before.

@@ -24,7 +24,7 @@ namespace
 
 constexpr suseconds_t patience = 700000; // [µs]
 
-// What a signal handler needs has to be global.
+// Global, since a signal handler needs them.
 std::atomic<bool> requested{false};
 std::atomic<bool> deaf{false};
 std::atomic<bool> pipeIgnored{false};                        // at the start of the program

@@ -45,8 +45,8 @@ bool stopRequested();
 /// which a caller asks for the error in words.
 void endByPipe();
 
-/// From here on signals end nothing: the files are being put in their place. What follows, after
-/// another handleSignals(), finds that the run is to stop.
+/// From here on signals end nothing: the files are being put in their place. After another
+/// handleSignals() the program finds that the run is to stop.
 void ignoreSignals();
 
 } // namespace molsurf::tool
