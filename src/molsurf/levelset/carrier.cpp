@@ -16,10 +16,10 @@ namespace
 {
 
 constexpr float unknown = 1e9f;       // v where it is not known
-constexpr float nearInterface = 0.7f; // of the interface: where v is taken [voxel]
+constexpr float nearInterface = 0.7f; // voxels no farther from the interface have v [voxel]
 
-/// How much the distance carries the interface rather than psi: 1 where the interface has left the
-/// valley of the metric, as it does where it spans a gap. Levels of psi mean nothing to it there.
+/// The weight of the distance against psi, a smoothstep of |level|: 1 where the interface has left
+/// the valley of the metric, as it does where it spans a gap. Levels of psi mean nothing there.
 /// @param[in] level  of psi on the interface, above that at the bottom of the valley
 MOLSURF_INLINE float leaving(float level)
 {
@@ -28,12 +28,14 @@ MOLSURF_INLINE float leaving(float level)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/// psi at the foot on the interface of each voxel of a mask, by its second-order expansion; left
-/// alone where the distance has no clear normal.
+/// The second-order Taylor polynomial of psi, from each voxel of a mask to its foot on the
+/// interface. `out` keeps its value where the slope of phi is below leastSlope, so that there is
+/// no normal.
 void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi,
                   const LeafMask& mask, float voxel, float* out)
 {
-    constexpr float least = -12.0f, most = 3.0f, leastSlope = 0.3f;
+    constexpr float leastSlope = 0.3f;
+    constexpr float least = -12.0f, most = 3.0f; // leaving() is 1 before psi comes to either
     const float inverse = 1.0f / voxel;
     mask.forEach([&](int v) {
         const float* p = psi.at(v >> 6, v >> 3 & 7, v & 7);
@@ -57,8 +59,9 @@ void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
 using MeanBlock = LeafBlock<float, 3>;
 constexpr int blockSize = MeanBlock::dim * MeanBlock::dim * MeanBlock::dim;
 
-/// Sums with the weights (1, 2, 1) along each axis, at voxels that are `rim` or more steps from the
-/// ends along x and y; those at the ends of rows get nothing of use.
+/// Binomial filter: sums with the weights (1, 2, 1) along z, then y, then x, not divided by 64.
+/// Voxels `rim` or more steps from the ends along x and y get them. The loops run on over the ends
+/// of rows of z, whose sums mix two rows and are not used.
 MOLSURF_KERNEL void spread(const float* __restrict in, int rim, float* __restrict scratch,
                            float* __restrict out)
 {
@@ -90,8 +93,10 @@ MOLSURF_KERNEL void split(const float* __restrict v, float* __restrict sum,
     }
 }
 
-/// Unknown inner voxels become the mean of the known ones about them.
-/// @param[in] keep  1: known ones stay; 0: they become the mean, too
+/// Inner voxels become the weighted mean of the known ones about them.
+/// @param[in,out] weight         1 where a voxel is known, else 0
+/// @param[in]     sums, weights  both after spread(): their quotient is the mean
+/// @param[in]     keep           1: known voxels stay; 0: they become the mean, too
 MOLSURF_KERNEL void takeMeans(float* __restrict sum, float* __restrict weight, int rim,
                               const float* __restrict sums, const float* __restrict weights,
                               float keep)
@@ -107,31 +112,33 @@ MOLSURF_KERNEL void takeMeans(float* __restrict sum, float* __restrict weight, i
     }
 }
 
-/// The carrier in a leaf: the way from psi to its level, over the slope of psi.
+/// The carrier (level - psi)/slope in a leaf, blended into the distance by leaving(). Farther
+/// than `beside` from the interface it has the sign of the distance d and a size of at
+/// least leastShare (|d| - beside).
 /// @param[in]     levels, weights  of the leaf's block; the levels count where the weight is not 0
-/// @param[in]     beside           distance from the interface at which a voxel may change sides
-/// @param[in,out] out              the slope; then the carrier
+/// @param[in]     limit            largest size of (level - psi)/slope [Å]
+/// @param[in]     beside           distance up to which a voxel may change sides [Å]
+/// @param[in,out] out              the slope [1/Å]; then the carrier [Å]
 MOLSURF_KERNEL void carry(const float* __restrict levels, const float* __restrict weights,
                           const float* __restrict psi, const float* __restrict distance,
                           float lambda, float limit, float beside, float* __restrict out)
 {
     constexpr int rim = 3;
-    constexpr float leastShare = 0.6f; // of the distance
+    constexpr float leastShare = 0.6f;
     for (int row = 0; row < 64; ++row) {
         const int first =
             (row / 8 + rim) * MeanBlock::strideX + (row % 8 + rim) * MeanBlock::strideY + rim;
         for (int z = 0; z < 8; ++z) {
             const int i = 8 * row + z;
-            // Far from the interface, where the level is not known, the bottom of the valley
-            // serves.
+            // Far from the interface no level is known: that of the bottom of the valley serves.
             const float known = weights[first + z] > 0.0f ? 1.0f : 0.0f;
             const float slope = out[i];
             const float bottom = -fastLog(1.0f + lambda * slope * slope);
             const float level = known > 0.0f ? levels[first + z] : bottom;
             const float value = clamped((level - psi[i]) / slope, -limit, limit);
             const float mixed = value + leaving(level - bottom) * (distance[i] - value);
-            // Away from the interface voxels do not change sides, nor come near it: beside a front
-            // that spans a gap, and in a cavity that was filled, psi knows nothing of it.
+            // psi alone would put zeros away from the interface: beside a front that spans a gap,
+            // and in a cavity that was filled.
             const float side = distance[i] < 0.0f ? -1.0f : 1.0f;
             const float depth = side * distance[i] - beside;
             const float bounded = larger(side * mixed, leastShare * depth);

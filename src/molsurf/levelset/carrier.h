@@ -29,8 +29,7 @@ struct CarrierSource {
 /// @param[in] phi    signed distance to the interface [Å]
 /// @param[in] width  the result lies within two of it about 0 [Å]
 /// @return a field on the leaves of phi: < 0 inside, with a slope of 1 where the interface is flat
-/// and of
-///         0.2 to 1 in creases
+///         and of 0.2 to 1 in creases
 SparseField smoothCarrier(const SparseField& phi, const CarrierSource& source, double width,
                           const Progress& progress);
 

@@ -15,14 +15,15 @@
 namespace molsurf
 {
 
-/// Moves a point onto the zero set along the gradient.
-/// @param[in]  jetAt  the function: a Jet at a point
-/// @param[out] jet    there
-/// @return whether it got there
+/// Newton's method along the gradient: moves a point onto the zero set.
+/// @param[in]     jetAt  the function: a Jet at a point
+/// @param[in,out] y      the start; then the point, or the last iterate
+/// @param[out]    jet    at the point
+/// @return whether |value| < tolerance after 6 steps at most; false where the slope is below 0.1
 template<typename JetAt>
 bool project(const JetAt& jetAt, openvdb::Vec3d& y, Jet& jet)
 {
-    constexpr double tolerance = 1e-5, leastSlope2 = 0.01, longest = 0.5;
+    constexpr double tolerance = 1e-5, leastSlope2 = 0.01, longest = 0.5; // a step [voxel]
     for (int i = 0; i < 6; ++i) {
         jet = jetAt(y);
         const double slope2 = jet.gradient.lengthSqr();
@@ -34,18 +35,21 @@ bool project(const JetAt& jetAt, openvdb::Vec3d& y, Jet& jet)
     return false;
 }
 
-/// The point of the zero set that is closest to x, sought from a start until it is found: Newton's
-/// method along the surface where the squared distance is convex, else descent; each step is
-/// shortened until the point is nearer.
+/// The point of the zero set that is closest to x: Newton's method along the surface, or gradient
+/// descent where the squared distance is not convex, with a line search until the point is nearer.
+/// With y the point, n the normal, s = n.(x - y) and t = x - y - s n, the Newton step d along the
+/// surface solves (I + s A) d = t, A being the Hessian over the slope; descent takes d = t.
+/// @param[in] start  where project() begins; the point stays within `farthest` of it
 /// @param[in] steps  that may be made
-/// @return nothing if there is no zero set at the start; never farther from x than the point there
+/// @return nothing if project() fails from the start; never farther from x than its point
 template<typename JetAt>
 std::optional<openvdb::Vec3d> closestFoot(const JetAt& jetAt, const openvdb::Vec3d& x,
                                           const openvdb::Vec3d& start, int steps = 20)
 {
     using openvdb::Vec3d;
-    constexpr double close = 3e-3, longest = 0.7, farthest = 3.0; // [voxel]
-    constexpr int halvings = 6;
+    constexpr double close = 3e-3;                  // the search ends at this |t| [voxel]
+    constexpr double longest = 0.7, farthest = 3.0; // a step; from the start [voxel]
+    constexpr int halvings = 6; // trials of a step, each 0.4 times as long as the last
     Vec3d y = start;
     Jet jet;
     if (!project(jetAt, y, jet)) return {};
@@ -60,7 +64,7 @@ std::optional<openvdb::Vec3d> closestFoot(const JetAt& jetAt, const openvdb::Vec
             std::abs(n.x()) < 0.6 ? n.cross(Vec3d(1.0, 0.0, 0.0)) : n.cross(Vec3d(0.0, 1.0, 0.0));
         u.normalize();
         const Vec3d w = n.cross(u), Hu = jet.hessian * u, Hw = jet.hessian * w;
-        const double k = s / slope;
+        const double k = s / slope; // I + s A is (a b; b c) in the basis u, w
         const double a = 1.0 + k * u.dot(Hu), b = k * u.dot(Hw), c = 1.0 + k * w.dot(Hw);
         const double det = a * c - b * b, tu = t.dot(u), tw = t.dot(w);
         Vec3d d =

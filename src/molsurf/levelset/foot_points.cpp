@@ -31,7 +31,9 @@ inline __attribute__((always_inline)) Offset offsetOf(const FootPoints& f, const
     return o;
 }
 
-/// Component a of the step along the surface.
+/// Component a of the step along the surface, (I + s A)^-1 t. On the tangent plane the inverse is
+/// (I + s (kappa I - A)) / det by Cayley-Hamilton, with det = 1 + s kappa + s^2 K. det is 0 at a
+/// centre of curvature; 0.2 at least keeps the step short there.
 inline __attribute__((always_inline)) float stepAlong(const FootPoints& f, const Offset& o, int l,
                                                       int a)
 {
@@ -60,13 +62,14 @@ MOLSURF_KERNEL void shapeFrom(const JetLanes& jets, FootPoints& feet, float larg
                     yz = jets.hessian[4][l] * scale, xz = jets.hessian[5][l] * scale;
         const float hx = xx * nx + xy * ny + xz * nz, hy = xy * nx + yy * ny + yz * nz,
                     hz = xz * nx + yz * ny + zz * nz;
+        // With P = I - n n^T: A = P H P = H - n m^T - m n^T, m being H n - (n.H n)/2 n.
         const float half = 0.5f * (nx * hx + ny * hy + nz * hz);
         const float mx = hx - half * nx, my = hy - half * ny, mz = hz - half * nz;
-        // A = H - n m^T - m n^T
         float A[6] = {xx - 2.0f * nx * mx,    yy - 2.0f * ny * my,    zz - 2.0f * nz * mz,
                       xy - nx * my - ny * mx, yz - ny * mz - nz * my, xz - nx * mz - nz * mx};
         const float square = A[0] * A[0] + A[1] * A[1] + A[2] * A[2] + // tr A^2 = kappa^2 - 2 K
                              2.0f * (A[3] * A[3] + A[4] * A[4] + A[5] * A[5]);
+        // Scaled to k1^2 + k2^2 <= largest^2.
         const float limit = largest / std::sqrt(larger(square, largest2));
         const float kappa = (A[0] + A[1] + A[2]) * limit;
         for (int i = 0; i < 6; ++i) feet.A[i][l] = A[i] * limit;
@@ -116,7 +119,7 @@ MOLSURF_KERNEL void distances(const FootPoints& feet, const Lanes* x, const floa
         const float determinant = larger(1.0f + s * (feet.kappa[l] + s * gauss), 0.02f);
         const float expanded = sign[l] * (s + 0.5f * (tAt + s * gauss * t2) / determinant);
         const float r2 = s * s + t2, r = std::sqrt(r2);
-        const float least = std::sqrt(larger(r2 - 0.76f * (1.0f + r), 0.0f));
+        const float least = std::sqrt(larger(r2 - 0.76f * (1.0f + r), 0.0f)); // 0.76 = 0.87^2
         d[l] = smaller(larger(expanded, least), r);
         aside2[l] = t2;
     }

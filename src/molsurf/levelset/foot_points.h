@@ -41,22 +41,22 @@ struct JetLanes {
 /// @param[in] largest  that limit [1/voxel]
 void shapeFrom(const JetLanes& jets, FootPoints& feet, float largest = 1.0f);
 
-/// The steps along the surface, to second order, that bring points of it closest to voxels x: d
-/// solves (I + s A) d = t on the tangent plane, s and t being the normal and the tangential part of
-/// x - y.
+/// Newton steps along the surface that bring points y of it closest to voxels x: d solves
+/// (I + s A) d = t on the tangent plane, s and t being the normal and the tangential part of x - y.
 void stepsAlong(const FootPoints& feet, const FootPoints::Lanes* x, FootPoints::Lanes* d);
 
 /// One Newton step toward the zero set, and along it toward x.
 void newtonSteps(const JetLanes& jets, const FootPoints& feet, const FootPoints::Lanes* x,
                  FootPoints::Lanes* d);
 
-/// Signed distances of voxels x by the expansion of the distance function about their feet:
-/// s + (t.A t + s K t.t) / (2 (1 + s kappa + s^2 K)), times a sign.
+/// Distances of voxels x, without sign, by the expansion of the distance function about their feet:
+/// s + (t.A t + s K t.t) / (2 (1 + s kappa + s^2 K)), times the sign of their side.
 ///
 /// They are kept to what is possible: a foot is a point of the surface, and no point of the surface
 /// is farther than some 0.87 voxel from one of those known, so that with curvatures up to one a
 /// voxel the distance d and r = |x - y| satisfy  r^2 - (1 + r) 0.87^2 <= d^2 <= r^2.
-/// @param[out] aside2  the squared distances of the voxels from the normals through their feet
+/// @param[in]  sign    -1 for voxels inside, else 1
+/// @param[out] aside2  |t|^2: squared distances of the voxels from the normals through their feet
 void distances(const FootPoints& feet, const FootPoints::Lanes* x, const float* sign, float* d,
                float* aside2);
 

@@ -20,7 +20,9 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The origins of all leaves within a number of leaves of those given by their place among leaves.
+/// Dilation of a set of leaves: the origins of all within `reach` leaves of some, along each axis.
+/// A table whose voxels are leaves is dilated for it.
+/// @param[in] places  of the leaves, counted in leaves; any order, with repeats
 std::vector<Coord> leavesWithin(std::vector<Coord> places, int reach, const Progress& progress)
 {
     tbb::parallel_sort(places.begin(), places.end());
@@ -68,10 +70,10 @@ GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& o
         const double R = balls[i].radius + options.probe;
         const double rate = decays[i].rate > 0.0f ? double(decays[i].rate) : options.rate(R);
         if (decays[i].rate > 0.0f) slowest = std::min(slowest, rate);
-        const double square = R * R + decays[i].level / rate;
+        const double square = R * R + decays[i].level / rate; // rate (r^2 - R^2) = level at r
         extent.maxGrownRadius = std::max(extent.maxGrownRadius, std::sqrt(std::max(square, 0.0)));
     }
-    if (slowest < 1e30) {
+    if (slowest < 1e30) { // GaussianOptions::rate() solved for epsilon
         extent.maxTolerance =
             std::max(extent.maxTolerance, M_LN2 / (slowest * extent.maxGrownRadius));
     }
@@ -80,8 +82,8 @@ GaussianExtent extentOf(const std::vector<Ball>& balls, const GaussianOptions& o
 
 double GaussianExtent::cutoff(double reach) const
 {
-    const double R = maxGrownRadius, rim = R + 2.0 * maxTolerance + reach;
-    const double slowest = M_LN2 / (maxTolerance * R);
+    const double R = maxGrownRadius, rim = R + 2.0 * maxTolerance + reach; // felt in the band
+    const double slowest = M_LN2 / (maxTolerance * R); // the least rate: its term falls off last
     return std::sqrt(std::max(rim * rim, R * R + double(negligible) / slowest));
 }
 
@@ -153,7 +155,8 @@ const JetTerms& GaussianSum::jetTermsAt(const Vec3d& x) const
         Coord cell;
         JetTerms terms;
     };
-    // Points on their way to a critical point go to and fro between cells.
+    // A direct-mapped cache of 4^3 cells of 1 Å: points on their way to a critical point go to and
+    // fro between cells.
     thread_local std::array<Near, 64> known;
     const Coord cell = Coord::floor(x);
     Near& near = known[std::size_t(16 * (cell.x() & 3) + 4 * (cell.y() & 3) + (cell.z() & 3))];
@@ -220,9 +223,9 @@ SparseField GaussianSum::evaluate(LeafTable table, const Progress& progress) con
 GaussianSum::Candidates GaussianSum::candidates(const Progress& progress,
                                                 const openvdb::CoordBBox& box) const
 {
-    // Leaves that may hold a voxel with psi >= 0: those near a ball. In a table whose voxels stand
-    // for leaves, they are the leaves of the centres, dilated. Where k terms meet, psi = 0 lies at
-    // most eps/2 log2(k) outside the balls; k = 64 is more than any packing of atoms has.
+    // Leaves that may hold a voxel with psi >= 0: those near the centre of a ball. Where k terms
+    // meet, psi = 0 lies at most eps/2 log2(k) outside the balls: 3 eps for k = 64, more than any
+    // packing of atoms has.
     const double edge = leafDim * options_.voxelSize;
     std::vector<Coord> centres(index_.size());
     for (std::size_t i = 0; i < index_.size(); ++i) {
@@ -244,7 +247,7 @@ GaussianSum::Candidates GaussianSum::candidates(const Progress& progress,
     std::atomic<std::int32_t> summed{0};
     parallelFor(table.size(), progress, [&](std::size_t n) {
         Leaf& leaf = leafAt(table.origin(n), options_.reach);
-        constexpr float rounding = 1e-3f;
+        constexpr float rounding = 1e-3f; // of bounds and sums in float
         if (leaf.bounds.most(leaf.terms.count) < -rounding) return;
         if (leaf.bounds.least() > rounding) {
             out.inside[n] = ~LeafMask();

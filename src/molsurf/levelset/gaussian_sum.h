@@ -88,8 +88,7 @@ public:
     /// reach of the options.
     /// @param[in] box       of whole leaves: no others are looked at
     /// @param[in] bumpsFor  none, or a function that receives psi on the leaves whose sign no
-    /// bounds
-    ///                      decide and returns bumps; psi has them from then on
+    ///                      bounds decide and returns bumps; psi has them from then on
     /// @return no leaves if psi is negative at all voxels
     SparseField band(int steps, const Progress& progress,
                      const openvdb::CoordBBox& box = openvdb::CoordBBox::inf(),
@@ -175,13 +174,16 @@ private:
     struct Candidates {
         LeafTable table;
         std::vector<LeafMask> inside;     ///< where psi >= 0
-        std::vector<std::int32_t> places; ///< in the sums, or -1
-        LeafField sums;
+        std::vector<std::int32_t> places; ///< index of each leaf in the sums; -1: bounds decide it
+        LeafField sums;                   ///< psi, in the order in which threads came to leaves
     };
     Candidates candidates(const Progress& progress, const openvdb::CoordBBox& box) const;
+
+    /// Adds the bumps to the sums; leaves that bounds had decided get a sum if a bump reaches them.
     void addBumps(Candidates& leaves) const;
 
-    /// psi on the leaves that bounds do not decide. The bounds decide none that is not covered.
+    /// psi on the leaves that bounds do not decide. Leaves decided as inside are covered by balls:
+    /// in each octant one term without the others has psi > 0.
     SparseField searched(const Candidates& leaves, const Progress& progress) const;
 
     const JetTerms& jetTermsAt(const openvdb::Vec3d& x) const;

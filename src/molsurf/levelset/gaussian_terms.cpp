@@ -22,7 +22,6 @@ MOLSURF_INLINE Floats square(Floats x)
     return x * x;
 }
 
-/// One bit a lane.
 } // namespace
 
 void GaussianLists::resize(std::size_t balls)
@@ -39,7 +38,8 @@ GaussianLeaf::GaussianLeaf(const openvdb::Coord& origin, double voxelSize, doubl
 namespace
 {
 
-/// The end of addTerms(), where the lists are long enough.
+/// addTerms() for lists that have room: eight balls at a time, those of them that count by the
+/// square of their distance from the box [0, 7]^3 of the leaf's voxels.
 MOLSURF_KERNEL void appendTerms(const GaussianLists& balls, std::int32_t begin, std::int32_t end,
                                 const GaussianLeaf& leaf, GaussianTerms& terms)
 {
@@ -56,7 +56,7 @@ MOLSURF_KERNEL void appendTerms(const GaussianLists& balls, std::int32_t begin, 
         }
         const Floats felt =
             larger(square(load(balls.rim.data() + i) + leaf.reach), load(balls.felt2.data() + i));
-        const Ints counts = (apart2 <= felt) & (laneNumbers() < splat(end - i));
+        const Ints counts = (apart2 <= felt) & (laneNumbers() < splat(end - i)); // not the padding
         for (std::uint32_t bits = bitsOf(counts & laneBits()); bits != 0; bits &= bits - 1) {
             const int l = __builtin_ctz(bits);
             terms.x[count] = from[0][l];
@@ -100,6 +100,7 @@ struct Halves {
     }
 };
 
+/// boundTerms() eight terms at a time; the lists are padded.
 MOLSURF_KERNEL void boundBy8(const GaussianTerms& t, GaussianBounds& bounds)
 {
     Floats top = splat(GaussianTerms::noExponent), floor[octants];
@@ -157,11 +158,14 @@ float GaussianBounds::most(std::size_t terms) const
 namespace
 {
 
-/// The exponentials of a term along the three axes; their products, times e^top, are the term.
+/// The exponentials of a term at the 8 coordinates along x, y and z: the term at a voxel is e^top
+/// times the product of three. The exponent at the nearest y and z is in the factor of x, so that
+/// the other two are at most 1.
+/// @param[out] out  24 numbers
 MOLSURF_INLINE void tabulate(const GaussianTerms& t, std::size_t i, float top, float* out)
 {
     const Floats voxel = __builtin_convertvector(laneNumbers(), Floats);
-    const auto near2 = [](float c) { // of voxels 0 to 3 and of voxels 4 to 7
+    const auto near2 = [](float c) { // squared distance to the nearer of [0, 3] and [4, 7]
         const float d = larger(std::abs(std::abs(c - 3.5f) - 2.0f) - 1.5f, 0.0f);
         return d * d;
     };
@@ -172,7 +176,10 @@ MOLSURF_INLINE void tabulate(const GaussianTerms& t, std::size_t i, float top, f
     store(out + 16, fastExp(decay * (nearZ2 - square(voxel - t.z[i]))));
 }
 
-/// Tabulates the terms that count in some octant and lists them.
+/// Tabulates the terms that count in some octant, one after the other, and lists for each octant
+/// the places of its terms in this table. Without branches a term is written to all eight lists,
+/// and counted where it belongs.
+/// @param[in] stride  from list to list
 MOLSURF_KERNEL void listTerms(const GaussianTerms& t, const GaussianBounds& bounds,
                               std::size_t stride, GaussianTables& tables)
 {
@@ -200,14 +207,15 @@ MOLSURF_KERNEL void listTerms(const GaussianTerms& t, const GaussianBounds& boun
     std::copy_n(counts, octants, tables.counts);
 }
 
-/// Adds up the products of the terms in each octant, four rows at a time in a plane.
+/// Adds up the products of the terms in each octant. A vector holds two rows of four z: `low` those
+/// of its first two y, `high` those of the other two.
 MOLSURF_KERNEL void sumOctants(const GaussianTables& tables, std::size_t stride,
                                float* __restrict sum)
 {
     for (int o = 0; o < octants; ++o) {
         const int x = 4 * (o >> 2), y = 4 * (o >> 1 & 1), z = 4 * (o & 1);
         const std::int32_t* list = tables.list.data() + std::size_t(o) * stride;
-        Floats planes[4][2] = {};
+        Floats planes[4][2] = {}; // [x][low or high]
         for (std::size_t j = 0; j < tables.counts[o]; ++j) {
             const float* e = tables.exponentials.data() + 24 * list[j];
             const Floats4 ey = load4(e + 8 + y), ez = load4(e + 16 + z);
@@ -239,7 +247,7 @@ MOLSURF_KERNEL void takeLogarithms(float top, float* sum)
     }
 }
 
-/// psi at a voxel where the products underflowed: the largest exponent there is the scale.
+/// psi at voxel v where the products underflowed, by log-sum-exp with the largest exponent there.
 float psiAt(const GaussianTerms& t, int v)
 {
     const float x = float(v >> 6), y = float(v >> 3 & 7), z = float(v & 7);
@@ -270,12 +278,14 @@ void sumTerms(const GaussianTerms& terms, const GaussianBounds& bounds, Gaussian
     }
     listTerms(terms, bounds, stride, tables);
     sumOctants(tables, stride, psi);
-    LeafMask lost;
+    LeafMask lost; // none if psi of such a sum is below lowestPsi anyway
     if (bounds.top + std::log(smallestSum) > lowestPsi) lost = lessThan(psi, smallestSum);
     takeLogarithms(bounds.top, psi);
     lost.forEach([&](int v) { psi[v] = psiAt(terms, v); });
 }
 
+// Log-sum-exp in two passes, eight terms side by side: the exponents and the largest, then the sums
+// of e = exp(exponent - largest) and of its gradient -2 C e (x - x_i).
 MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float y, float z,
                                      std::vector<float>& scratch)
 {
@@ -299,9 +309,9 @@ MOLSURF_KERNEL PsiSample sampleTerms(const GaussianTerms& terms, float x, float 
     for (const float t : top) largest = larger(largest, t);
     const float least = largest - negligible;
     for (std::size_t k = 0; k < terms.count; k += width) {
-        float near = exponent[k];
-        for (std::size_t l = 1; l < width; ++l) near = larger(near, exponent[k + l]);
-        if (near < least) continue;
+        float most = exponent[k];
+        for (std::size_t l = 1; l < width; ++l) most = larger(most, exponent[k + l]);
+        if (most < least) continue; // all eight are negligible
         for (std::size_t l = 0; l < width; ++l) {
             const std::size_t i = k + l;
             const float e = fastExp(exponent[i] - largest), pull = -2.0f * decay[i] * e;

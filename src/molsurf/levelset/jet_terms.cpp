@@ -28,11 +28,12 @@ struct JetColumns {
     std::size_t count;
 };
 
+/// Sums the terms at a point, four at a time.
 MOLSURF_KERNEL void sumJetTerms(const JetColumns& list, double x, double y, double z,
                                 JetSums& __restrict out)
 {
     const double* __restrict cx = list.x, * __restrict cy = list.y, * __restrict cz = list.z, * __restrict rates = list.rate, * __restrict levels = list.level;
-    constexpr double least = -12.0; // exponent
+    constexpr double least = -12.0; // exponent: a term below it is left out
     Doubles e = {}, fx = {}, fy = {}, fz = {}, xx = {}, xy = {}, xz = {}, yy = {}, yz = {}, zz = {},
             c = {};
     for (std::size_t i = 0; i < list.count; i += doubleLanes) {
@@ -70,8 +71,10 @@ struct Near {
     double x, y, z, radius; ///< [Å]
 };
 
+/// Appends the terms of balls that are felt somewhere in `near`. Without a branch each ball is
+/// written, and counted if its lane is on, which is -1.
 /// @param[in] h  edge of a voxel [Å]
-/// @return the number of terms written
+/// @return the number of terms that count; one more may be written
 MOLSURF_KERNEL std::size_t appendNear(const GaussianLists& balls, std::int32_t begin,
                                       std::int32_t end, double h, const Near& near,
                                       const JetRoom& out)

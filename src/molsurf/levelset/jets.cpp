@@ -13,6 +13,7 @@ using openvdb::Vec3f;
 namespace
 {
 
+/// Copies a jet to a lane. Its Hessian is xx yy zz xy and xz yz, that of lanes xx yy zz xy yz xz.
 MOLSURF_INLINE void setJet(const SplineJet& jet, float scale, int lane, JetLanes& jets)
 {
     jets.value[lane] = scale * jet.first[0];
@@ -40,8 +41,9 @@ struct Corners {
     int first[3];               ///< where they begin in the lowest of these leaves, in [0, 8)
 };
 
-/// @tparam shift  how many of the four coefficients of a row lie in the lower leaf's last half
-///                row, before those in the upper leaf; 0: all lie in the lower leaf
+/// The jet in a cell whose coefficients lie in several leaves.
+/// @tparam shift  0: all four coefficients of a row lie in the lower leaf; else the last `shift` of
+///                them lie in the upper leaf, after those from z = 4 + shift in the lower one
 template<int shift>
 MOLSURF_INLINE SplineJet jetAcross(const Corners& c, const float* t)
 {
@@ -90,10 +92,10 @@ void jetBeside(const SparseField& coefficients, std::int32_t leaf, const Vec3f& 
     const auto& near = coefficients.table.neighbours(leaf);
     Corners c;
     float t[3];
-    int side[3][2];
-    bool about = true; // in the leaves about this one
+    int side[3][2];    // 0, 1 or 2: the leaf before, this one or the next along an axis
+    bool about = true; // whether all coefficients lie in these leaves
     for (int a = 0; a < 3; ++a) {
-        const float cell = clamped(std::floor(y[a]), -64.0f, 64.0f);
+        const float cell = clamped(std::floor(y[a]), -64.0f, 64.0f); // so that it fits an int
         const int begin = int(cell) - 1;
         t[a] = clamped(y[a] - cell, 0.0f, 1.0f);
         c.first[a] = begin & 7;

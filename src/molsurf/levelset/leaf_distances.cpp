@@ -19,7 +19,7 @@ namespace
 using Lanes = FootPoints::Lanes;
 
 constexpr float leastError = 2e-4f;    // of the expansion that is worth a step [voxel]
-constexpr float settledEnough = 5e-4f; // after a step
+constexpr float settledEnough = 5e-4f; // error after which no further step is made [voxel]
 constexpr float sharpest = 4.0f;       // curvature of a crease [1/voxel]
 
 } // namespace
@@ -27,7 +27,7 @@ constexpr float sharpest = 4.0f;       // curvature of a crease [1/voxel]
 void LeafDistances::compute(const std::int32_t* index, const std::uint16_t* voxels, int count,
                             const LeafMask& negative, float level, float* out)
 {
-    constexpr float sharp = 2.0f;
+    constexpr float sharp = 2.0f; // from the level: where points are moved [voxel]
     waiting_ = 0;
     FootPoints feet;
     alignas(64) Lanes x[3], sign, distance, aside2, step[3];
@@ -50,9 +50,9 @@ void LeafDistances::compute(const std::int32_t* index, const std::uint16_t* voxe
         if (!any) continue;
         stepsAlong(feet, x, step);
         for (int l = 0; l < used; ++l) {
-            // What the expansion leaves out is of third order in the distance to the normal,
-            // and of the size of the change of curvature, at most some curvature a voxel.
-            constexpr float farthest = 2.0f;
+            // The expansion's error is of third order in the distance to the normal, times the
+            // change of curvature, at most some curvature a voxel: |t|^3 sqrt(k1^2 + k2^2).
+            constexpr float farthest = 2.0f; // a longer step is not trusted [voxel]
             const float a2 = aside2[l];
             const float curvature2 = feet.kappa[l] * feet.kappa[l] - 2.0f * feet.gauss[l];
             const Vec3f d = lane(step, l);
@@ -79,9 +79,10 @@ void LeafDistances::compute(const std::int32_t* index, const std::uint16_t* voxe
     while (waiting_ > 0) polish(out);
 }
 
-/// Moves closest points along the surface: one Newton step on the spline, which leaves an error
-/// of fourth order in the distance moved. They stay where that does not bring them closer to
-/// the normals through their voxels.
+/// One round for the voxels that wait: a Newton step brings their points back onto the spline's
+/// zero set, and leaves an error of fourth order in the distance moved. A point has to come nearer
+/// to its voxel and to the normal through it. Then its distance is taken if it is settled, or it
+/// waits for another round, up to mostRounds. For all others seekFoot() starts anew from the seed.
 void LeafDistances::polish(float* out)
 {
     FootPoints feet;
@@ -102,7 +103,7 @@ void LeafDistances::polish(float* out)
         jetBeside(near_.coefficients, seed.leaf, w.y - shift(seed), l, jets);
         const Vec3f gradient = lane(jets.gradient, l);
         const float slope2 = gradient.lengthSqr();
-        good[l] = slope2 >= 0.04f;
+        good[l] = slope2 >= 0.04f; // where it is not, a Newton step would be too long
         setLane(w.y - jets.value[l] / std::max(slope2, 0.04f) * gradient, l, feet.y);
     }
     shapeFrom(jets, feet, sharpest);
@@ -137,8 +138,9 @@ void LeafDistances::polish(float* out)
     waiting_ = again;
 }
 
-/// The distance by a closest point that is sought until it is found: beside creases and ridges
-/// of the interface, where the surface turns within a voxel, no one step leads there.
+/// The distance by closestFoot() from the seed: beside creases and ridges of the interface, where
+/// the surface turns within a voxel, no one step leads to the closest point. `out` keeps its value
+/// if there is none.
 void LeafDistances::seekFoot(std::int32_t index, int v, float* out) const
 {
     const Seed& seed = near_[index];

@@ -20,16 +20,17 @@ public:
     {
     }
 
-    /// Distances without sign; those within `sharp` of the level by points that are moved to be the
-    /// closest.
+    /// Distances without sign [voxel], by the expansion about the seeds; within two voxels of the
+    /// level the closest points are first moved by Newton's method where that changes the distance.
     /// @param[in]  index   the seed of each voxel of the leaf
     /// @param[in]  voxels  `count` voxels that have one
-    /// @param[out] out     by voxel
+    /// @param[in]  level   [voxel]
+    /// @param[out] out     by voxel; others keep their values
     void compute(const std::int32_t* index, const std::uint16_t* voxels, int count,
                  const LeafMask& negative, float level, float* out);
 
 private:
-    /// A voxel whose closest point has to be moved.
+    /// A voxel whose closest point has to be moved; it waits until as many as there are lanes do.
     struct Waiting {
         int v;
         std::int32_t seed;

@@ -62,6 +62,9 @@ MOLSURF_KERNEL LeafMask LeafFeet::cutOff(float inside, float outside, float* phi
     return mask;
 }
 
+// isKink() for eight pairs of voxels v and w = v + stride at a time. With d and m the distance and
+// the normal at a voxel, its foot lies at -d m from it. Curvatures are bounded by those of the
+// parts: a kink that the bound leaves is sure; without a curvature it is possible.
 MOLSURF_KERNEL KinkMasks findKinks(const LeafFeet& feet, float voxel, std::int32_t patches)
 {
     constexpr float least = 0.5f * kinkSpread;
@@ -71,13 +74,13 @@ MOLSURF_KERNEL KinkMasks findKinks(const LeafFeet& feet, float voxel, std::int32
     for (int axis = 0; axis < 3; ++axis) {
         const int stride = strides[axis];
         for (int v = 0; v < ends[axis]; v += floatLanes) {
-            if (axis == 1 && (v & 56) == 56) continue;
+            if (axis == 1 && (v & 56) == 56) continue; // y = 7: the next row is of another plane
             const int w = v + stride;
             const Ints p = load(feet.part + v), q = load(feet.part + w);
             const Floats d = load(feet.distance + v), e = load(feet.distance + w);
             Ints pair = (p >= 0) & (q >= 0) & ((d < 0.0f) == (e < 0.0f));
             pair &= (p != q) | (p >= patches);
-            if (axis == 2) pair &= laneNumbers() < splat(floatLanes - 1);
+            if (axis == 2) pair &= laneNumbers() < splat(floatLanes - 1); // not z = 7
             if (!any(pair)) continue;
             Floats spread2 = {}, product = {}, chord2 = {}; // of the vectors in isKink()
             for (int a = 0; a < 3; ++a) {

@@ -23,7 +23,7 @@ constexpr float rimTolerance = 2e-6f;
 constexpr float nowhere = 1e15f; // a distance
 constexpr float farAway = 1e8f;  // a place that pads lists
 
-/// One bit a lane.
+/// The least of the lanes.
 MOLSURF_INLINE float least(Floats x)
 {
     float out = x[0];
@@ -64,7 +64,7 @@ struct Places {
 
 /// Eight parts of one kind as seen from a place, or one of them as seen from eight.
 struct Seen {
-    Floats x, y, z; // the place, from the corner or centre
+    Floats x, y, z; // the place, relative to the corner or centre
 };
 
 /// Eight parts as seen from one place.
@@ -98,7 +98,7 @@ struct FromCircle {
 };
 
 /// The distances of eight parts from a place, and which of them can be the nearest to a point of
-/// the ball of radius `room` about it.
+/// the ball of radius `room` about it: those with a region (PartNumber) that comes so near.
 struct Reach {
     Floats distance;
     Ints possible;
@@ -130,7 +130,8 @@ MOLSURF_INLINE Reach reachOfArcs(const PartList& l, int i, const Seen& s, float 
     certain = at.middle >= endCosine * at.aside;
     const Floats across =
         squareRoot(larger(at.aside * at.aside - at.middle * at.middle, splat(0.0f)));
-    // Distances from the planes through the ends and the axis, and from the cones.
+    // Signed distances, positive within, from the planes through the axis and the ends, and from
+    // the cones that join the circle to the two centres.
     const Floats between = column(l, EndSine, i) * at.middle - endCosine * across;
     const Floats first = column(l, FirstSine, i) * at.along - column(l, FirstCosine, i) * off;
     const Floats second = -column(l, SecondSine, i) * at.along - column(l, SecondCosine, i) * off;
@@ -145,6 +146,7 @@ MOLSURF_INLINE Reach reachOfPatches(const PartList& l, int i, const Seen& s, flo
         s.x * column(l, AxisX, i) + s.y * column(l, AxisY, i) + s.z * column(l, AxisZ, i);
     const Floats d2 = s.x * s.x + s.y * s.y + s.z * s.z;
     const Floats aside = squareRoot(larger(d2 - along * along, splat(0.0f)));
+    // How far beyond the cone of the free part.
     const Floats beyond = column(l, FreeCosine, i) * aside - column(l, FreeSine, i) * along;
     return {size(squareRoot(d2) - column(l, PartRadius, i)), beyond <= splat(room)};
 }
@@ -240,8 +242,11 @@ struct PartsAt {
     const CapLists& caps;
 };
 
-/// Finds a limit for the points of a ball: no part whose key is above it is the nearest to any.
-/// @param[in] c,radius  of the ball
+/// Finds a limit for the points of a ball: no part whose key is above it is the nearest to any. If
+/// the centre's nearest part is at r, theirs are at r + radius or less, and so at r + 2 radius or
+/// less from the centre. The factor and 1e-5 Å are for rounding.
+/// @param[in]  c,radius  of the ball
+/// @param[out] keys      of all parts
 MOLSURF_INLINE float limitAt(const PartsAt& parts, const Vec3f& c, float radius, float inside,
                              const Keys& keys)
 {
@@ -259,7 +264,9 @@ MOLSURF_KERNEL float limitOf(const VoxelCube& cube, const PartsAt& parts, float 
     return limitAt(parts, cube.centre(), cube.radius(), inside, keys);
 }
 
-/// Takes the parts with keys below a limit.
+/// Takes over the parts with keys below a limit. Without a branch each index is written, and
+/// counted if it belongs to the list.
+/// @param[in] numbers  how many numbers a part of this kind has
 MOLSURF_KERNEL void takeParts(const PartList& from, const float* keys, float limit, int numbers,
                               std::vector<std::int32_t>& list, PartList& to)
 {
@@ -305,7 +312,8 @@ struct Cone {
 };
 
 /// The caps that may hold a direction of a cone.
-/// @param[out] out  their indices; room for all
+/// @param      above  memory for a number a cap
+/// @param[out] out    their indices; room for all
 /// @return their number; -1 if one holds all of the cone
 MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapLists& caps, CapRange range,
                              float* __restrict above, std::int32_t* out)
@@ -317,8 +325,9 @@ MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapLists& caps, CapRange ra
     const int count = int(range.end - range.begin);
     std::int32_t whole = 0;
     for (int k = 0; k < count; ++k) {
-        // A cap holds the cone if the angle between the axes is below the difference of the half
-        // angles, and misses it if it is above their sum; none does if that is above pi.
+        // A cap holds the cone if the angle g between the axes is below the difference of the half
+        // angles A and B, and misses it if g is above their sum; none does if that is above pi.
+        // Here t - s = cos g - cos(A - B) and t + s = cos g - cos(A + B).
         const float t = x[k] * ax + y[k] * ay + z[k] * az - cosine[k] * cone.cosine;
         const float s = sine[k] * cone.sine;
         whole |= (cosine[k] <= cone.cosine ? t - s : -1.0f) > rimTolerance ? 1 : 0;
@@ -449,11 +458,12 @@ MOLSURF_INLINE void forEachBelow(const float* keys, int count, float limit, cons
     }
 }
 
-/// The nearest of the parts about a cube, for its voxels inside.
+/// The nearest of the parts about a cube, for its voxels inside. For each small cube limitAt() of
+/// the ball about it chooses parts, which are offered to its eight voxels.
 MOLSURF_KERNEL void takeNearest(VoxelCube& cube, const PartsAt& parts, float inside,
                                 const Keys& keys)
 {
-    const float radius = 0.8661f * cube.voxel;
+    const float radius = 0.8661f * cube.voxel; // about a small cube: half its diagonal
     for (int s = 0; s < 8; ++s) {
         const Floats outer = load(cube.distance + floatLanes * s);
         const Ints wanted = outer < cube.rounding();
@@ -602,7 +612,7 @@ MOLSURF_KERNEL void nearestBalls(VoxelCube& cube, const PartList& balls, float o
     if (scratch.keys.size() < room) scratch.keys.resize(room);
     if (scratch.list.size() < room) scratch.list.resize(room);
     const int count = chooseBalls(cube, balls, outside, scratch.keys.data(), scratch.list.data());
-    if (count < 0) {
+    if (count < 0) { // all voxels are inside, which nearestParts() completes
         std::fill_n(cube.distance, VoxelCube::size, -1.0f);
         std::fill_n(cube.part, VoxelCube::size, -1);
         return;

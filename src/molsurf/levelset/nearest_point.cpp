@@ -18,7 +18,7 @@ constexpr int cubeEdge = 4, plane = cubeEdge * cubeEdge;
 static_assert(plane % floatLanes == 0 && leafDim % cubeEdge == 0);
 constexpr float cubeHalf = 0.5f * (cubeEdge - 1); // of the box of its voxels' centres
 
-/// Appends i + k to a list of m for every lane k that is on.
+/// Appends i + k to a list of m for every lane k that is on, which is -1. Each is written.
 /// @return the new length
 MOLSURF_INLINE int appendLanes(const Ints& on, int i, std::int32_t* list, int m)
 {
@@ -83,7 +83,7 @@ MOLSURF_KERNEL int candidates(const float* x, const float* y, const float* z, in
 MOLSURF_KERNEL void nearestInCube(const float* x, const float* y, const float* z, int count,
                                   float cx, float cy, float cz, std::int32_t* best, float* least)
 {
-    for (int part = 0; part < plane; part += floatLanes) { // of each plane
+    for (int part = 0; part < plane; part += floatLanes) { // half of each plane of 4 x 4 voxels
         Floats vy, vz;
         for (int k = 0; k < floatLanes; ++k) {
             vy[k] = cy + float((part + k) / cubeEdge);
@@ -233,6 +233,7 @@ void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask
     s.nearZ.resize(std::size_t(count));
     for (int b = 0; b < 8; ++b) {
         const int bx = b >> 2, by = b >> 1 & 1, bz = b & 1;
+        // The bits of the cube's voxels in the words of x (LeafMask).
         const std::uint64_t columns = std::uint64_t(0x0f0f0f0f) << (32 * by + 4 * bz);
         std::uint64_t any = 0;
         for (int x = 0; x < cubeEdge; ++x) any |= mask.words[cubeEdge * bx + x] & columns;

@@ -19,8 +19,8 @@ using openvdb::Coord;
 namespace
 {
 
-/// The voxels that may lie in the result: those within `steps` of the interface voxels on one side,
-/// not crossing to the other.
+/// The voxels that may lie in the result: the interface voxels, dilated by `steps` on one side.
+/// After every four steps, voxels of the other side are dropped.
 /// @param[in] wrong  voxels of the other side, by leaf of `table`
 LeafTable reachable(const LeafTable& table, const std::vector<LeafMask>& interface,
                     const std::vector<LeafMask>& wrong, int steps, const Progress& progress)
@@ -52,9 +52,11 @@ LeafMask touching(const Coord& way)
     return out;
 }
 
-/// Tells which leaves of a domain that a level set lacks lie inside: no interface crosses them, so
-/// they are on the side of the leaves about them.
-/// @param[in] inner  whether voxels of the level set's leaves are inside
+/// Flood fill: finds which leaves of a domain that a level set lacks lie inside. No interface
+/// crosses them, so the majority of the touching voxels of the level set's leaves decides.
+/// Breadth-first search carries that to leaves farther away.
+/// @param[in] inner  the voxels inside, by leaf of `table`
+/// @return whether each leaf of the domain is such a leaf
 std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
                               const std::vector<LeafMask>& inner)
 {

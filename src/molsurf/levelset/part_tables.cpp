@@ -61,8 +61,9 @@ struct FreeCone {
     double cosine = 1.0; // of half its angle
 };
 
-/// The cosine between a vector and the point of an arc farthest from its direction, as seen from
-/// the centre of a sphere of the arc.
+/// The cosine between a unit vector and the direction of the point of an arc farthest from it, as
+/// seen from the centre of a sphere of the arc: the least of base + a cos t + b sin t for
+/// |t| <= arc.half, divided by the sphere's radius.
 double leastCosine(const Arc& arc, const Vec3d& centre, double radius, const Vec3d& axis)
 {
     const double base = axis.dot(arc.centre - centre);
@@ -73,7 +74,10 @@ double leastCosine(const Arc& arc, const Vec3d& centre, double radius, const Vec
     return (base - (opposite ? most : std::abs(b) * std::sin(arc.half) - a * cosine)) / radius;
 }
 
-/// All arcs of a sphere lie in a cone, so what is beyond it is covered or free as a whole.
+/// The cones about the free parts of all patches. A patch's axis is the sum of the directions to
+/// its arcs, weighted by length, and its cone holds all arcs. So the rest of the sphere is covered
+/// or free as a whole, which the direction opposite to the axis decides; where it is free, the cone
+/// is the whole sphere.
 std::vector<FreeCone> freeCones(const BallBoundary& boundary)
 {
     constexpr double rounding = 1e-6;
@@ -114,6 +118,8 @@ std::vector<FreeCone> freeCones(const BallBoundary& boundary)
     return cones;
 }
 
+/// Sets the numbers and the region of patch i: the box about a ball about the part of the cone down
+/// to the depth `inside`.
 void setPatch(const BallBoundary& boundary, const FreeCone& cone, double inside, std::size_t i,
               PartTable& table)
 {
@@ -125,7 +131,8 @@ void setPatch(const BallBoundary& boundary, const FreeCone& cone, double inside,
     table.set(i, AxisX, cone.axis);
     table.set(i, FreeCosine, cone.cosine);
     table.set(i, FreeSine, sineOf(cone.cosine));
-    // About the shell in the cone: its rims, and the middle of its cap.
+    // The ball's radius is the largest distance from its centre to the outer and the inner rim of
+    // this shell, and to the middles of its caps.
     const double r = patch.radius, deep = std::max(r - inside, 0.0);
     const double centre = cone.cosine > 0.0 ? 0.5 * (r + deep * cone.cosine) : 0.0;
     const auto rim = [&](double radius) {
@@ -136,6 +143,8 @@ void setPatch(const BallBoundary& boundary, const FreeCone& cone, double inside,
     table.regions[i] = Box::about(patch.centre + centre * cone.axis, around);
 }
 
+/// Sets the numbers and the region of arc i. A full circle has an EndCosine of -2, which every
+/// place exceeds.
 void setArc(const BallBoundary& boundary, double inside, std::size_t i, PartTable& table)
 {
     const Arc& arc = boundary.arcs[i];
@@ -168,6 +177,10 @@ void setArc(const BallBoundary& boundary, double inside, std::size_t i, PartTabl
         Box::about(ball.centre, ball.radius + 2.0 * std::sin(0.5 * arc.half) * arc.radius);
 }
 
+/// Sets the numbers and the region of corner i: the planes of its numbers pass through it and
+/// two of the three centres. Normals are 0, and exclude nothing, where it is nearly in one plane
+/// with them.
+/// @param[in] part  its index among all parts
 void setCorner(const BallBoundary& boundary, double inside, std::int32_t part, std::size_t i,
                PartTable& table)
 {
@@ -179,7 +192,7 @@ void setCorner(const BallBoundary& boundary, double inside, std::int32_t part, s
         const PlacedBall& ball = boundary.balls[std::size_t(corner.balls[k])];
         to[k] = (ball.centre() - corner.position) / ball.radius;
     }
-    constexpr double flat = 1e-6; // without a side to be trusted
+    constexpr double flat = 1e-6; // volume of the unit vectors below which its sign is rounding
     const double volume = to[0].dot(to[1].cross(to[2]));
     const double sign = std::abs(volume) < flat ? 0.0 : volume > 0.0 ? 1.0 : -1.0;
     double cosine = 1.0;
@@ -252,7 +265,7 @@ void PartTables::gather(const Vec3d& centre, double half, double outside, LeafPa
 {
     const float inside = float(inside_), radius = float(half * std::sqrt(3.0));
     for (PartList* list : {&out.corners, &out.arcs, &out.patches, &out.balls}) list->clear();
-    // The slack of what is sought beyond the depth is that of rounding.
+    // 1 % larger than the leaf for rounding, of which roomFor() allows 0.3 %.
     const Box box = Box::about(centre, 1.01 * half);
     corners_.forEachNear(box, [&](const PartGroup& group) {
         addCorners(group, centre, radius, inside, out.corners);

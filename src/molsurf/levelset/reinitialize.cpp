@@ -35,7 +35,9 @@ MOLSURF_INLINE Floats minmod(Floats a, Floats b, Floats zero)
     return clamped(b, smaller(a, -zero), larger(a, zero));
 }
 
-/// A sum and the square of the upwind derivative along one axis, times h^2.
+/// Adds to a sum the square of the upwind derivative along one axis, times h^2: second-order ENO
+/// differences from below and from above, of which Godunov's flux takes the one that comes from
+/// the interface.
 /// @param[in] sign  +1 outside, -1 inside
 MOLSURF_INLINE Floats addUpwind(Floats sum, const float* p, int stride, Floats sign, Floats zero)
 {
@@ -49,7 +51,8 @@ MOLSURF_INLINE Floats addUpwind(Floats sum, const float* p, int stride, Floats s
     return sum + slope * slope;
 }
 
-/// One Euler step where a mask is on; elsewhere the field, limited to the band.
+/// One Euler step where a mask is on; elsewhere the field, limited to the band. A change c becomes
+/// c^3/(c^2 + noise^2), and no voxel changes its sign.
 /// @param[in] noise  changes below this are suppressed [Å]
 MOLSURF_KERNEL void eulerStep(const float* __restrict block, const LeafMask& moving, float voxel,
                               float width, float noise, float* __restrict out)
@@ -97,6 +100,7 @@ MOLSURF_KERNEL void nextToInterface(const float* __restrict block, const LeafMas
                 low = smaller(next, low);
                 high = larger(next, high);
             }
+            // Below 0 if a neighbour of the other sign is there; with high = 0, too.
             const Floats crossing = here < 0.0f ? -high - 1e-30f : low;
             found |= crossing < 0.0f ? bit << (8 * (y & 3)) : Ints{};
         }
@@ -124,14 +128,15 @@ MOLSURF_KERNEL void taylorDistance(const float* __restrict block, const LeafMask
             const float second = (d.x * d.x * d.xx + d.y * d.y * d.yy + d.z * d.z * d.zz +
                                   2.0f * (d.x * d.y * d.xy + d.y * d.z * d.yz + d.x * d.z * d.xz)) /
                                  norm2;
-            // |phi| = a s - second s^2 / 2 for the step s toward the zero
+            // With a = |grad phi| the zero is at the root s of phi - a s + second s^2 / 2, taken as
+            // 2 phi / (a + sqrt(a^2 - 2 second phi)), which does not cancel.
             const float discriminant = norm2 - 2.0f * second * value;
             const float root = std::sqrt(larger(discriminant, 0.0f));
             const float change = 2.0f * value / (std::sqrt(norm2) + root) - value;
             const float damped = change * change * change / (change * change + noise * noise);
-            const float first = norm2 >= 0.25f ? 1.0f : 0.0f;
-            const float zero = discriminant >= 0.25f * norm2 ? first : 0.0f;
-            distance[z] = value + zero * damped; // a factor, since a branch does not vectorise
+            const float steep = norm2 >= 0.25f ? 1.0f : 0.0f;
+            const float hasZero = discriminant >= 0.25f * norm2 ? steep : 0.0f;
+            distance[z] = value + hasZero * damped; // a factor: a branch does not vectorise
         }
         for (int z = 0; z < 8; ++z)
             out[8 * row + z] = bits & rowBits[z] ? distance[z] : out[8 * row + z];

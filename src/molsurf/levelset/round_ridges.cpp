@@ -29,9 +29,10 @@ int aboutOf(double voxelSize)
     return std::max(2, int(std::ceil(ridgeRadius / voxelSize)));
 }
 
+/// The number of explicit Euler steps; 0 on voxels so coarse that the spline rounds as much.
 int stepsFor(double voxelSize)
 {
-    constexpr double longest = 0.125; // [voxel^2]
+    constexpr double longest = 0.125; // time of a step [voxel^2]
     if (voxelSize > 1.5 * ridgeRadius) return 0;
     return int(std::ceil(ridgeTime / (longest * voxelSize * voxelSize) - 1e-6));
 }
@@ -63,7 +64,8 @@ Limits limitsOf(double offset)
     return {-std::max(limit, float(1.0 / offset)), limit};
 }
 
-/// The voxels of a leaf whose foot on S = 0 is sharper than any atom.
+/// The voxels of a leaf whose foot on S = 0 is sharper than any atom: |H| / (1 - S H) > sharpest, H
+/// being the mean curvature of the level set through the voxel.
 MOLSURF_KERNEL void sharpVoxels(const float* __restrict block, float inverse, LeafMask& mask)
 {
     constexpr float sharpest = 4.0f; // mean curvature of a ball of 0.25 Å [1/Å]
@@ -72,7 +74,7 @@ MOLSURF_KERNEL void sharpVoxels(const float* __restrict block, float inverse, Le
         const float* p = block + (row / 8 + 1) * X + (row % 8 + 1) * Y + 1;
         int bits = 0;
         for (int z = 0; z < 8; ++z) {
-            const float H = bendAt(p + z, inverse).H; // of the level set through the voxel
+            const float H = bendAt(p + z, inverse).H;
             bits |= int(std::abs(H) > sharpest * larger(1.0f - p[z] * H, 0.0f)) << z;
         }
         mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));

@@ -35,7 +35,8 @@ Seed seedOf(const FootPoints& feet, int lane, std::int32_t leaf)
 /// The farthest that a closest point may lie from its voxel, in voxels.
 constexpr float farthestFoot = 1.45f;
 
-/// The closest points of voxels next to the interface, by Newton's method.
+/// The closest points of voxels next to the interface, by Newton's method from the voxels
+/// themselves. A point that would leave the ball of radius farthestFoot stays where it is.
 /// @param[in] c       coefficients of phi/h
 /// @param[in] voxels  `count` <= lanes voxels of the leaf
 void closestPoints(const LeafBlock<float, 3>& c, const std::uint16_t* voxels, int count,
@@ -53,7 +54,7 @@ void closestPoints(const LeafBlock<float, 3>& c, const std::uint16_t* voxels, in
         moves[l] = l < count;
     }
     constexpr int steps = 6;
-    constexpr float small2 = 1e-5f; // the next step would be its square
+    constexpr float small2 = 1e-5f; // squared step: the next is about this long
     for (int i = 0;; ++i) {
         jetsIn(c, feet.y, moves, jets);
         for (int l = 0; l < lanes; ++l) moves[l] = moves[l] && step2[l] >= small2;

@@ -19,6 +19,7 @@ namespace
 /// the nearest voxel 0.5 at most, by central differences.
 constexpr float middleSlope = 0.7f;
 
+/// S at a voxel of leaf n or of one next to it.
 float valueAt(const SparseField& S, std::size_t n, const Coord& voxel)
 {
     const Coord at = voxel - S.table.origin(n);
@@ -30,7 +31,8 @@ float valueAt(const SparseField& S, std::size_t n, const Coord& voxel)
     return m == noLeaf ? 1e6f : S.leaf(std::size_t(m))[v];
 }
 
-/// Voxels in the middle of what is thinner than a wall.
+/// Voxels of leaf n in the middle of what is thinner than a wall: less than wall/2 deep, with a
+/// small slope of S by central differences.
 std::vector<Coord> middleOf(const SparseField& S, std::size_t n, double wall)
 {
     std::vector<Coord> out;
@@ -75,8 +77,8 @@ void thickenWalls(DistanceBand& S, double wall, double width, const Progress& pr
         const Coord origin = table.origin(n);
         const openvdb::Vec3d mid = origin.asVec3d() + 0.5 * (leafDim - 1);
         const double leafReach = 0.5 * std::sqrt(3.0) * (leafDim - 1) + reach;
-        std::vector<openvdb::Vec3f> near; // from the origin [voxel]
-        const int w = 2 * leaves + 1;
+        std::vector<openvdb::Vec3f> near; // middles within reach, from the origin [voxel]
+        const int w = 2 * leaves + 1;     // leaves along an edge of the cube that may have some
         for (int k = 0; k < w * w * w; ++k) {
             const auto step = [&](int i) { return leafDim * (i % w - leaves); };
             const std::int32_t m =
@@ -93,7 +95,7 @@ void thickenWalls(DistanceBand& S, double wall, double width, const Progress& pr
                 const openvdb::Vec3f at(float(v >> 6), float(v >> 3 & 7), float(v & 7));
                 float least = float(reach * reach);
                 for (const openvdb::Vec3f& c : near) least = std::min(least, (at - c).lengthSqr());
-                const float ball = float(h) * (std::sqrt(least) - float(radius));
+                const float ball = float(h) * (std::sqrt(least) - float(radius)); // its distance
                 if (ball < phi[v]) {
                     phi[v] = ball;
                     S.kinks.active(n).set(v);

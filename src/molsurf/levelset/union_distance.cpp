@@ -49,8 +49,9 @@ Foot footOn(const Part& part, const Vec3d& x)
     return {true, y, y / std::max(y.length(), 1e-6f)};
 }
 
-/// Curvature of the boundary at the foot of x, along the tangential part of a vector: that of a
-/// patch, or what an arc has of it [1/Å].
+/// Normal curvature of the boundary at the foot of x, along the tangential part of a vector [1/Å].
+/// At an arc it is that of the circle, n.u/r, times the square of the cosine between the vector and
+/// the arc; u is the radial unit vector, n the normal of the distance.
 float curvatureAlong(const Part& part, const Foot& foot, const Vec3d& x, const Vec3f& chord)
 {
     if (part.kind == PartKind::Patch) return 1.0f / part.radius;
@@ -98,6 +99,7 @@ void addKinksBetweenLeaves(const PartTables& tables, const LeafTable& table,
                            const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n,
                            LeafMask& kinks)
 {
+    // Of the leaves next along x, y and z among the 27 neighbours.
     constexpr int strides[3] = {64, 8, 1}, neighbours[3] = {22, 16, 14};
     const std::int32_t* own = part.leaf(n);
     for (int axis = 0; axis < 3; ++axis) {
@@ -137,7 +139,8 @@ public:
 
     const PartTables& tables() const { return tables_; }
 
-    /// The leaves that may have a voxel of the band.
+    /// The leaves that may have a voxel of the band: those whose box of voxels meets the shell
+    /// about the whole sphere of a patch, from `inside` within it to `outside` beyond.
     std::vector<Coord> leaves(const openvdb::CoordBBox& box, const Progress& progress) const
     {
         const double edge = leafDim * voxel_;
@@ -173,10 +176,10 @@ public:
         return all;
     }
 
-    /// @param[out] phi   of the leaf [Å]
-    /// @param[out] part  index of the nearest part: patches, then arcs, then corners
-    /// @param[out] kinks  the voxels with a kink between them and the next of the leaf along an
-    /// axis
+    /// The distances of a leaf, by eight cubes of 4^3 voxels.
+    /// @param[out] phi    of the leaf, cut off at the limits of the band [Å]
+    /// @param[out] part   index of the nearest part: patches, then arcs, then corners
+    /// @param[out] kinks  voxels with a kink between them and the next of the leaf along an axis
     /// @return the voxels within the band
     LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part,
                       LeafMask& kinks) const
@@ -209,7 +212,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             (found.possible[axis] & active & ~kinks).forEach([&](int v) {
                 const Coord at = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
-                const int next = v + (64 >> 3 * axis);
+                const int next = v + (64 >> 3 * axis); // by 64, 8 or 1
                 kinks.set(v,
                           isKinkBeside(tables_, at, axis, voxel_, feet.part[v], feet.part[next]));
             });
@@ -233,6 +236,7 @@ private:
     const PartTables tables_;
 };
 
+/// distanceToUnion(), whose memory is free when this returns.
 DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
                     const Progress& progress, const openvdb::CoordBBox& box)
 {
