@@ -73,6 +73,7 @@ void addArc(const PlacedBall& ball, std::int32_t i, const Cap& cap, const Circle
     double angle = std::atan2(gap.beginX * gap.endY - gap.beginY * gap.endX,
                               gap.beginX * gap.endX + gap.beginY * gap.endY);
     if (angle <= 0.0) angle += 2.0 * M_PI;
+    // The arc's middle is its begin, turned by half of its angle.
     const double half = 0.5 * angle, c = std::cos(half), s = std::sin(half);
     const std::int32_t before = caps.other[std::size_t(gap.before)];
     const std::int32_t after = caps.other[std::size_t(gap.after)];
@@ -91,7 +92,7 @@ void addArc(const PlacedBall& ball, std::int32_t i, const Cap& cap, const Circle
         parts.corners.push_back({centre + radius * at(gap.endX, gap.endY), {i, cap.other, after}});
 }
 
-/// A number for a corner, such that sums of different ones differ.
+/// A hash of a corner: sums of those of different corners differ.
 std::uint64_t fingerprint(const CornerName& name)
 {
     std::uint64_t hash = name.above ? 0x9e3779b97f4a7c15ull : 0x94d049bb133111ebull;
@@ -103,7 +104,8 @@ std::uint64_t fingerprint(const CornerName& name)
 }
 
 /// Whether every corner ends one arc of the balls 0 and 1, one of 0 and 2, and one of 1 and 2 of
-/// its name: these count 1, 1 and -2.
+/// its name. Its hash is added for the first two and taken away twice for the third, so the sum,
+/// modulo 2^64, is 0 then.
 bool cornersFit(const std::vector<Arc>& arcs)
 {
     std::uint64_t sum = 0;
@@ -126,8 +128,9 @@ bool isPoint(const Arc& arc, const std::vector<PlacedBall>& balls)
            length < small * balls[std::size_t(arc.balls[1])].radius;
 }
 
-/// The corners of pieces of the boundary that are points: each ends three arcs that are points.
-/// One probe fits there and cannot move, or just does not fit: the moves would decide.
+/// The corners of pieces of the boundary that are points: each ends three arcs that are points. One
+/// probe fits there and cannot move, or just does not fit: the moves would decide. Union-find joins
+/// such arcs to pieces; a piece with a corner of fewer than three of them is no point.
 std::set<CornerName> pointCorners(const std::vector<BallParts>& all,
                                   const std::vector<PlacedBall>& balls)
 {
@@ -152,8 +155,9 @@ std::set<CornerName> pointCorners(const std::vector<BallParts>& all,
     return out;
 }
 
-/// Whether a sphere that lost all its arcs is not covered, by a direction that is none of a
-/// crystal.
+/// Whether a sphere that lost all its arcs is free. It is covered or free as a whole, so that one
+/// direction decides, which is none of a crystal.
+/// @param[in] all  in blocks, with the caps of their balls one after the other
 bool isBare(const std::vector<PlacedBall>& balls, std::size_t n, const std::vector<BallParts>& all,
             const std::vector<Counts>& counts)
 {
@@ -262,7 +266,8 @@ void place(const BallParts& parts, std::size_t ball, const std::vector<Counts>& 
     }
 }
 
-/// The boundary of balls in general position.
+/// The boundary of balls in general position. Blocks of balls find their parts in parallel; those
+/// of exposed balls are then copied to their places in the lists of all.
 /// @throws SpecialPosition if they are not
 BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress)
 {
@@ -388,10 +393,12 @@ bool capsOverlap(const BallBoundary& boundary, const Patch& patch, const Cap& a,
     const auto sineOf = [](double cosine) { return std::sqrt((1.0 - cosine) * (1.0 + cosine)); };
     const double sum = a.cosine + b.cosine, sineA = sineOf(a.cosine), sineB = sineOf(b.cosine);
     if (sum < -rounding) return true; // the half angles add up to more than pi
+    // Of the angle between the axes and of the sum A + B of the half angles: cos - cos(A + B).
     const double apart = a.axis.dot(b.axis) - a.cosine * b.cosine + sineA * sineB;
     if (sum > rounding && std::abs(apart) > rounding * (1.0 + 1.0 / sineA + 1.0 / sineB))
         return apart > 0.0;
 
+    // The same in quadruple precision, where rounding may decide.
     const auto planeOf = [&](const Cap& cap) {
         return quadPlane(boundary.balls[std::size_t(patch.ball)],
                          boundary.balls[std::size_t(cap.other)]);

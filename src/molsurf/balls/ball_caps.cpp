@@ -32,7 +32,7 @@ MOLSURF_KERNEL bool isCapCovered(const Vec3f& axis, float cosine, float sine, co
         const Floats between = axis.x() * load(caps.x.data() + k) +
                                axis.y() * load(caps.y.data() + k) +
                                axis.z() * load(caps.z.data() + k);
-        // Of the difference of the half angles; padding has a cosine above all others.
+        // The cosine of the difference of the half angles; padding has a cosine above all others.
         const Floats difference =
             cosine * load(caps.cosine.data() + k) + sine * load(caps.sine.data() + k);
         if (any((between >= difference + heldMargin) & (load(caps.cosine.data() + k) <= cosine)))
@@ -202,7 +202,7 @@ bool CapFinder::gather(std::int32_t i, Scratch& s) const
     relateAll(ball.radius, s.near.size(), s.radius.data(), s.wayX.data(), s.wayY.data(),
               s.wayZ.data(), s.cosine.data(), s.relation.data());
 
-    // Large caps first, since they hold most of the others: sorted as finely as that needs.
+    // Large caps first, since they hold most of the others: a counting sort by cosines in 64 bins.
     constexpr std::size_t bins = 64;
     const auto binOf = [&](std::size_t k) {
         return std::min(std::size_t((s.cosine[k] + 1.0) * 0.5 * bins), bins - 1);
@@ -241,7 +241,7 @@ Exposure CapFinder::find(std::int32_t i, Scratch& s, CapArrays& caps) const
     const double room = ball.radius + roundingAt(centre, ball.radius);
     s.groups.clear();
     tree_.forEachNear(Box::about(centre, room), [&](std::size_t g) { s.groups.push_back(g); });
-    constexpr std::size_t most = 8 * dense; // looked at one by one
+    constexpr std::size_t most = 8 * dense; // more candidates are not even looked at one by one
     bool amongMany = BoxTree::group * s.groups.size() > most;
     if (!amongMany) {
         s.near.resize(BoxTree::group * s.groups.size());

@@ -155,7 +155,7 @@ private:
         return (std::uint64_t(x) & mask) << 2 * keyBits | (std::uint64_t(y) & mask) << keyBits |
                (std::uint64_t(block) & mask);
     }
-    /// x for 2, y for 1 of a column's key.
+    /// x for 2, y for 1 of a column's key: 21 bits with a sign, which the two shifts extend.
     static int partOf(std::uint64_t key, int which)
     {
         return int(std::uint32_t(key >> which * keyBits) << (32 - keyBits)) >> (32 - keyBits);

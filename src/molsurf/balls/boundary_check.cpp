@@ -21,7 +21,7 @@ namespace
 constexpr std::size_t bundle = floatLanes; // directions side by side
 
 /// Directions that are spread evenly, any run of them too: Roberts' low-discrepancy sequence R2 on
-/// a cylinder about the sphere.
+/// a cylinder about the sphere. It adds 1/g and 1/g^2 modulo 1, g being the plastic number 1.3247.
 struct Directions {
     static constexpr std::size_t count = 1 << 13;
     std::array<float, count> x, y, z;
@@ -47,8 +47,8 @@ const Directions& directions()
     return table;
 }
 
-/// Finds where rays from the centre of a sphere of radius 1 along eight directions enter and leave
-/// the cell.
+/// Clips eight rays from the centre of a sphere of radius 1 by the planes of its caps: finds where
+/// they enter and leave the cell. A ray that misses it leaves before it enters.
 MOLSURF_KERNEL void followRays(const float* ux, const float* uy, const float* uz,
                                const CapLists& caps, float* from, float* to)
 {
@@ -126,6 +126,7 @@ CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std:
         followRays(&u.x[at], &u.y[at], &u.z[at], caps.rounded, from, to);
         for (std::size_t d = 0; d < bundle; ++d) {
             const double begin = from[d], length = std::max(from[d], to[d]);
+            // Its mean is the share of the ball that lies in the cell.
             const double cubes = length * length * length - begin * begin * begin;
             sum += cubes;
             squares += cubes * cubes;

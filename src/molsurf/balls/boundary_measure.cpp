@@ -53,6 +53,7 @@ Cap capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t other)
     return cap;
 }
 
+/// The squared distance of a point from an arc.
 double distance2(const Arc& arc, const Vec3d& x)
 {
     const Vec3d w = x - arc.centre;
@@ -70,7 +71,9 @@ double distance2(const Arc& arc, const Vec3d& x)
     throw Error(ErrorKind::Check, std::string("boundary: ") + what);
 }
 
-/// The loops that the arcs of a sphere form: for each arc the number of its loop.
+/// Union-find of the arcs of a sphere by the corners where they meet: for each arc the number of
+/// its loop.
+/// @param[out] count  of the loops
 std::vector<std::uint32_t> findLoops(const BallBoundary& boundary, const Sides& sides,
                                      std::size_t& count)
 {
@@ -159,7 +162,8 @@ std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& pa
     return face;
 }
 
-/// The faces of a patch, without their loops' shares.
+/// The faces of a patch with their areas and integrated normals (measureBoundary() has
+/// the formulas).
 std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch, const Sides& sides)
 {
     const double R = patch.radius;
@@ -280,7 +284,7 @@ DisjointSets joinedFaces(const std::vector<std::vector<Face>>& faces,
     return joined;
 }
 
-/// Adds a face of a patch, and tells its arcs.
+/// Adds a face of a patch, and sets it and its piece for its arcs.
 void addFace(const BallBoundary& boundary, std::uint32_t patch, const Face& face,
              std::int32_t piece, BoundaryMeasure& out)
 {
@@ -337,7 +341,8 @@ BoundaryMeasure measureBoundary(const BallBoundary& boundary, const Progress& pr
                 (patch.radius * face.area + (patch.centre - origin[n]).dot(face.normal)) / 3.0;
             normal[n] += face.normal;
             out.patchAreas[p] += face.area;
-            // Faces, less arcs, plus corners, of which each ends three arcs.
+            // Faces, less arcs, plus corners, of which each ends three arcs: an arc with ends
+            // counts -1 + 2/3, half of that for the face on either side.
             double openSides = 0.0;
             for (const std::uint32_t arc : face.arcs) openSides += boundary.arcs[arc].ends[0] >= 0;
             euler[n] += 2.0 - face.loops - openSides / 6.0;

@@ -36,7 +36,9 @@ struct CapPointers {
     const double *x, *y, *z, *cosine;
 };
 
-/// Finds the parts of a circle that caps cover.
+/// Finds the parts of a circle that caps cover, as in CircleCovers. The plane of a cap of cosine c
+/// meets the circle where u cos a + v sin a = (c - height along)/radius; (x, y) is (u, v) as a
+/// unit vector.
 /// @return whether one surely covers all of it
 MOLSURF_KERNEL bool intersectCircle(const Circle& circle, const CapPointers& caps, int count,
                                     double* __restrict x, double* __restrict y,
@@ -93,10 +95,11 @@ namespace
 /// Whether caps surely cover all of a circle, as floats tell: each of 16 equal parts of it lies in
 /// one of them. Most circles are covered well enough for that.
 ///
-/// With the ends p and q of a part, a point of it is a p + b q, where a and b are not negative and
-/// 1
-/// <= a + b <= 1/cos(pi/16).
-/// @param[out] f  what the caps looked at cover
+/// With the ends p and q of a part, a point of it is a p + b q, where a and b are not negative
+/// and 1 <= a + b <= 1/cos(pi/16). So u x + v y is at least the smaller of its values at p and
+/// q, or 1/cos(pi/16) times that if it is negative. Of eight parts p and q are given, the others
+/// are opposite.
+/// @param[out] f  of the caps looked at; all of them if the result is false
 MOLSURF_KERNEL bool isSurelyCovered(const Circle& circle, const CapLists& caps, RoundedCovers& f)
 {
     constexpr float rounding = 3e-6f, longest = 1.01960f; // 1/cos(pi/16) = 1.019591
@@ -158,7 +161,8 @@ MOLSURF_KERNEL int keepCovers(RoundedCovers& f, int count, std::int32_t* kept)
         store(f.v.data() + k, v * inverse);
         store(f.base.data() + k, cut);
         store(f.sine.data() + k, squareRoot(1.0f - cut * cut));
-        // Which may hold others, and which others may hold.
+        // Bounds of the cosines. holds: 2 if it may hold no other; held: 3 if it covers nothing and
+        // so is dropped, -3 if it is not known and so kept.
         store(f.holds.data() + k, known & (cosine < most) ? cut : splat(2.0f));
         store(f.held.data() + k, none ? splat(3.0f) : known ? cut : splat(-3.0f));
     }
@@ -180,7 +184,7 @@ MOLSURF_KERNEL int keepCovers(RoundedCovers& f, int count, std::int32_t* kept)
     return m;
 }
 
-/// Finds the ends of covers.
+/// Finds the ends of covers: (x, y) turned forward by the half angle.
 MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const double* cosine,
                              double* __restrict endX, double* __restrict endY)
 {
@@ -225,9 +229,9 @@ MOLSURF_KERNEL int farthestEnd(double fromX, double fromY, int count, const doub
     return int(best[lane]) + lane;
 }
 
-/// Whether covers overlap all around a circle. It goes from the end of one to the farthest end of
-/// those that hold it. False may also mean that covers do no more than touch: the caller then has
-/// to intersect exactly.
+/// Whether covers overlap all around a circle, by the greedy walk of interval covering: from the
+/// end of one to the farthest end of those that hold it. False may also mean that covers do no more
+/// than touch: the caller then has to intersect exactly.
 /// @param[in,out] m  its ends are filled in
 bool coversOverlapAllAround(CircleCovers& m)
 {
@@ -321,7 +325,8 @@ Real pseudoAngle(const Real& x, const Real& y)
     return x < 0 ? Real(2 + y / (x + y)) : Real(3 + x / (x - y));
 }
 
-/// The gaps between covers.
+/// The gaps between covers, by a sweep over these in the order of their begins. `last` is the one
+/// with the farthest end so far; a gap opens where the next begins beyond that.
 /// @param[in] doubt  the error of their ends, at most
 /// @return false if ends lie too near each other to tell which comes first
 template<typename Real>
@@ -386,6 +391,8 @@ void findGaps(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArr
 {
     gaps.clear();
     const auto place = std::size_t(own);
+    // Three tries: floats for circles that are covered, doubles with bounds of their errors, and
+    // quadruple precision where these leave a doubt.
     const auto [e1, e2] = perpendicular(caps[own].axis);
     circle = {caps[own].axis, e1, e2, caps.cosine[place], caps.sine[place]};
     scratch.rounded.resize(std::size_t(caps.size()));

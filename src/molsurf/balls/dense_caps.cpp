@@ -224,6 +224,7 @@ bool DenseCaps::mayReach(const PlacedBall& ball, const Box& box, const PowerCell
     return false;
 }
 
+// Best-first search: boxes by their least power distance, since the first balls cut the cell most.
 bool DenseCaps::find(std::int32_t i, std::vector<Cap>& found) const
 {
     const PlacedBall& ball = balls_[std::size_t(i)];

@@ -23,7 +23,7 @@ std::vector<char> reachedFromOutside(const BallBoundary& boundary, const Boundar
                                      double probe)
 {
     const std::vector<std::int32_t> pieceOf = cornerPieces(boundary, measure);
-    std::vector<Ball> places(pieceOf.size());
+    std::vector<Ball> places(pieceOf.size()); // corners; Ball::atom is their piece
     for (std::size_t c = 0; c < places.size(); ++c)
         places[c] = {boundary.corners[c].position, 0.0, pieceOf[c]};
     const BallIndex index(places, {0.0, 0.0, 2.0});

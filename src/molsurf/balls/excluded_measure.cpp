@@ -59,14 +59,15 @@ struct ConcavePart {
                 formatted("surface: %s: %.8g and %.8g disagree", what, one, other));
 }
 
-/// The part of the torus between two angles f: the points
-/// centre + (rho - p cos f) e + p sin f axis, with e from -half to half.
+/// The part of the torus between two angles f: the points x = centre + (rho - p cos f) e +
+/// p sin f axis, with directions e from -half to half. There the element of area is
+/// p (rho - p cos f), the normal n = cos f e - sin f axis, and (x - centre).n = rho cos f - p.
 Part toricPart(const Arc& arc, double probe, double from, double to)
 {
     const double p = probe, rho = arc.radius, width = to - from, angle = 2.0 * arc.half;
+    // The integrals of cos f, sin f, sin f cos f and cos^2 f.
     const double sines = std::sin(to) - std::sin(from), cosines = std::cos(from) - std::cos(to);
     const double squares = 0.5 * (std::sin(to) - std::sin(from)) * (std::sin(to) + std::sin(from));
-    // Integrals of cos^2 f, sin f and sin f cos f.
     const double twice =
         0.5 * (width + std::sin(to) * std::cos(to) - std::sin(from) * std::cos(from));
     Part part;
@@ -169,6 +170,7 @@ void addCutters(const ProbeCorners& corners, std::size_t c, double probe, const 
         const double h = length / (2.0 * probe);
         if (!(length > 0.0) || !(h < 1.0)) return;
         const Vec3d axis = way / length;
+        // The angle between the axes is above the sum of the half angles: they do not meet.
         if (axis.dot(cone.axis) < h * cone.cosine - std::sqrt(1.0 - h * h) * sine - slack) return;
         if (isBehindPartner(corners[c], corners[o], std::uint32_t(o))) return;
         constexpr double same = 1e-13;
@@ -231,7 +233,9 @@ void shareRegion(const BallBoundary& boundary, const Vec3d& place, double probe,
     }
 }
 
-/// The edges and vertices about the faces of a corner.
+/// Adds the edges and vertices about the faces of a corner. To the Euler number of a face an edge
+/// counts -1/2, since two faces meet there, and a vertex 1 over the number of faces about it.
+/// @param[in] arcs  rims of the caps of `s`: the three sides first, then those of other corners
 void describeEdges(const std::vector<RimArc>& arcs, const CornerScratch& s, double probe,
                    ConcavePart& part)
 {
@@ -257,7 +261,7 @@ void describeEdges(const std::vector<RimArc>& arcs, const CornerScratch& s, doub
             part.fits = false;
             continue;
         }
-        if (arc.after < 3) own.euler += 0.25; // a point of a ball
+        if (arc.after < 3) own.euler += 0.25; // of a ball: contact, concave, 2 toric faces
         // Neighbouring sides share a ball: 0 and 1 the ball 1, 1 and 2 the ball 2, 2 and 0 the
         // ball 0, which is the first of side 0 and the second of side 2.
         for (const int next : {arc.before, arc.after}) {
@@ -306,6 +310,7 @@ struct Parts {
     bool fits = true;
 };
 
+/// Adds the contact faces: patches scaled from the grown radius to that of the ball.
 void addContacts(const BallBoundary& boundary, const BoundaryMeasure& measure, double probe,
                  Parts& all, ExcludedMeasure& out)
 {
@@ -326,6 +331,8 @@ void addContacts(const BallBoundary& boundary, const BoundaryMeasure& measure, d
     }
 }
 
+/// Adds the toric faces of all arcs. One that is not cut by its axis has an Euler number of 0 with
+/// its share of edges and vertices: a band, or a rectangle, 1 - 4/2 + 4/4.
 void addTori(const BallBoundary& boundary, const BoundaryMeasure& measure, double probe, Parts& all,
              ExcludedMeasure& out)
 {

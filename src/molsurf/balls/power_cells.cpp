@@ -61,7 +61,7 @@ bool findNeighbours(const Ball& ball, std::int32_t i, const BallIndex& index,
     return !hidden;
 }
 
-/// Cuts off the part of a convex polygon where x.normal > limit.
+/// Sutherland-Hodgman: cuts off the part of a convex polygon where x.normal > limit.
 void clip(std::vector<Vec2d>& polygon, const Vec2d& normal, double limit,
           std::vector<Vec2d>& scratch)
 {
@@ -86,6 +86,7 @@ double angleBetween(const Vec2d& p, const Vec2d& q)
 /// left.
 double sectorArea(const Vec2d& p, const Vec2d& q, double radius)
 {
+    // The line p + t along meets the circle at t = from and t = to.
     const Vec2d along = q - p;
     const double a = along.lengthSqr(), b = p.dot(along), c = p.lengthSqr() - radius * radius;
     const double root = b * b - a * c, half = 0.5 * radius * radius;

@@ -37,7 +37,8 @@ struct Rim {
     }
 };
 
-/// Adds the free parts of the rim of a cap.
+/// Adds the free parts of the rim of a cap, by a sweep over the angles that other caps cover, in
+/// the order of their begins in [0, 2 pi). It begins 2 pi before the last of their ends.
 void addRimArcs(const std::vector<SphereCap>& caps, int own, RegionScratch& scratch,
                 std::vector<RimArc>& arcs)
 {
@@ -77,7 +78,8 @@ void addRimArcs(const std::vector<SphereCap>& caps, int own, RegionScratch& scra
     }
 }
 
-/// The area that an arc and the great circles from its ends to a point enclose.
+/// The signed area that an arc and the great circles from its ends to a point enclose: triangles to
+/// the chords, which are great circles, and the segments between chords and arc.
 double fan(const RimArc& arc, const SphereCap& cap, const Vec3d& point)
 {
     constexpr double longest = 2.0; // where a chord is still on the same side as its arc
@@ -135,8 +137,8 @@ int followArcs(std::vector<int>& next, std::vector<RimArc>& arcs)
     return meet ? loops : -1;
 }
 
-/// Whether a loop holds a direction: whether the way from there to `far`, which lies outside of all
-/// loops, crosses it an odd number of times.
+/// Whether a loop holds a direction, by the even-odd rule: the great circle from there to `far`,
+/// which lies outside of all loops, crosses it an odd number of times.
 bool holds(const std::vector<SphereCap>& caps, const std::vector<RimArc>& arcs, int loop,
            const Vec3d& direction, const Vec3d& far)
 {
