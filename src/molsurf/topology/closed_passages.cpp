@@ -34,10 +34,11 @@ bool inOnePore(const Vec3d& a, const Vec3d& b, double level, const PassageField&
     return true;
 }
 
-/// The first of the points that lie in the pore of each.
+/// Union-find of points in one pore: of each point the first of its pore.
+/// @param[in] points  ascending by x
 std::vector<std::size_t> poresOf(const std::vector<Closed>& points, const PassageField& field)
 {
-    constexpr double farthest = 8.0; // [Å]
+    constexpr double farthest = 8.0; // points that are tried as neighbours in a pore [Å]
     DisjointSets pores(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3d& x = points[i].gap.place;
@@ -55,7 +56,9 @@ std::vector<std::size_t> poresOf(const std::vector<Closed>& points, const Passag
     return pore;
 }
 
-/// How many times smaller the tolerance has to be, for a point to be open.
+/// How many times smaller the tolerance has to be for a point to be open: bisection of the
+/// logarithm between 1 and `most` to a ratio of `finest`.
+/// @return about `most` if the point is closed up to there
 double timesToOpen(const Vec3d& place, const PassageField& field, const GapRule& rule)
 {
     constexpr double most = 64.0, finest = 1.02;

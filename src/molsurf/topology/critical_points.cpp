@@ -28,8 +28,10 @@ struct NewtonSteps {
     static constexpr float none = 1e30f;
 };
 
+/// Newton steps H^-1 grad psi by cofactors of the Hessian H, in central differences; psi at their
+/// ends is psi - step.grad psi/2.
 /// @param[in] block     psi of a leaf and one voxel about it
-/// @param[in] low,high  bounds of psi, here and there
+/// @param[in] low,high  bounds of psi, at the voxel and at the stationary point
 MOLSURF_KERNEL void newtonRows(const float* __restrict block, float inverse, float low, float high,
                                NewtonSteps& __restrict out)
 {
@@ -80,7 +82,7 @@ struct Start {
 std::vector<Start> startsOf(const SparseField& psi, std::size_t n)
 {
     const double h = psi.voxelSize, cell = 0.5 * h;
-    constexpr float margin = 0.8f;
+    constexpr float margin = 0.8f; // of psi, for the error of the estimates
     constexpr float limit = float(farthestGap) + margin, highest = float(highestUncovered) + margin;
     LeafBlock<float, 1> block;
     block.gather(psi, n);

@@ -31,6 +31,7 @@ Bump bumpAt(const Gap& gap, bool solid, double reach, double rate,
 {
     constexpr double least = 0.15;  // psi at the gap
     constexpr double slowest = 0.3; // [1/Å^2]
+    // With `side` psi is to be positive in both cases.
     const double side = solid ? 1.0 : -1.0, here = side * psi(gap.place);
     // A pocket that closes is to be covered as far as it reaches: psi is 0 at x^2 = -2 here / rise,
     // where the bump falls to 1/e.
@@ -43,6 +44,7 @@ Bump bumpAt(const Gap& gap, bool solid, double reach, double rate,
     const Vec3d way = reach * gap.axes[solid ? 0 : 1];
     if (thin > 0.0) {
         for (const double sign : {-1.0, 1.0}) {
+            // At this distance a bump has e^(-rate reach^2) of its amplitude.
             const double lacks = least - side * psi(gap.place + sign * way);
             amplitude = std::max(amplitude, lacks * std::exp(rate * reach * reach));
         }
@@ -91,7 +93,8 @@ std::optional<Gap> gapAt(const Vec3d& place, const PsiJet& there)
 
 std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach, double highest)
 {
-    constexpr double longest = 0.3, near = 0.05, there = 1e-5; // [Å]
+    constexpr double longest = 0.3, there = 1e-5; // a step, and one that ends the search [Å]
+    constexpr double near = 0.05; // a step this short [Å] leaves psi known to as much
     constexpr int steps = 12;
     const auto isFar = [&](double psi, double margin) {
         return psi < -farthestGap - margin || psi > highest + margin;
@@ -102,7 +105,7 @@ std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach,
         if (std::abs(at.hessian.det()) < 1e-6) return {};
         Vec3d step = at.hessian.inverse() * at.gradient;
         const double length = step.length();
-        // From here the method leads straight to a place where psi has this value.
+        // A short step leads straight to a place where psi has this value.
         if (length < near && isFar(at.psi - 0.5 * step.dot(at.gradient), near)) return {};
         if (length > longest) step *= longest / length;
         if (step.dot(last) < -0.9 * last.lengthSqr()) return {}; // to and fro, for ever
@@ -134,7 +137,7 @@ void holdGaps(const PsiJetAt& jet, const std::vector<Gap>& gaps,
     constexpr double widest = 0.5;   // [Å]
     constexpr double sharpest = 1.4; // [1/Å^2]
     const double reach = std::min(held * voxelSize, widest);
-    const double rate = std::min(sharpest, 0.7 / (voxelSize * voxelSize));
+    const double rate = std::min(sharpest, 0.7 / (voxelSize * voxelSize)); // half at one voxel
     const auto psi = [&](const Vec3d& x) { return jet(x).psi + bumps.at(x); };
     for (int pass = 0; pass < 2; ++pass) { // what is done for one may undo what was for another
         for (std::size_t i = 0; i < gaps.size(); ++i) {

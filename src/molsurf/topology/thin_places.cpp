@@ -71,7 +71,7 @@ bool onOneSheet(const NearestSeeds& near, const std::vector<std::int32_t>& corne
 std::vector<ThinPlace> thinPlacesIn(const NearestSeeds& near, std::size_t n, const LeafMask& turns,
                                     double depth)
 {
-    constexpr float shallower = 1.5f, deeper = 1.3f;
+    constexpr float shallower = 1.5f, deeper = 1.3f; // voxels than `depth` that are tried [voxel]
     const Coord& origin = near.domain.origin(n);
     std::vector<ThinPlace> out;
     turns.forEach([&](int v) {
@@ -103,11 +103,13 @@ double unitAt(double depth)
 Rim rimOf(const std::vector<Vec3d>& y)
 {
     if (y.size() == 2) return {0.5 * (y[0] + y[1]), 0.5 * (y[1] - y[0]).length(), 0.5};
+    // The circumcentre by barycentric weights: that of a corner is a^2 (b^2 + c^2 - a^2), a being
+    // the side opposite to it.
     const double a2 = (y[1] - y[2]).lengthSqr(), b2 = (y[2] - y[0]).lengthSqr(),
                  c2 = (y[0] - y[1]).lengthSqr();
     Vec3d w(a2 * (b2 + c2 - a2), b2 * (c2 + a2 - b2), c2 * (a2 + b2 - c2));
     const double sum = w[0] + w[1] + w[2];
-    if (sum < 1e-6) return {y[0], 0.0, -1.0};
+    if (sum < 1e-6) return {y[0], 0.0, -1.0}; // in one line: 16 times the squared area is 0
     w /= sum;
     const Vec3d centre = w[0] * y[0] + w[1] * y[1] + w[2] * y[2];
     return {centre, (centre - y[0]).length(), std::min({w[0], w[1], w[2]})};

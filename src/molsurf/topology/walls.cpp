@@ -52,15 +52,18 @@ struct Middle {
     bool operator<(const Middle& o) const { return place < o.place; }
 };
 
-/// The middle that a place leads to: it moves amid the points of the sheets that are closest to it,
-/// until it rests. Lengths are in voxels.
+/// The middle that a place leads to, by fixed-point iteration: the feet on the sheets move toward
+/// the point, the point to the centre of the smallest sphere through them. Lengths are in voxels.
+/// @param[in] least,most  depths of a middle
+/// @return nothing if it leaves these, or the triangle of its feet, or gets too far from the start
 template<typename JetAt>
 std::optional<Middle> middleFrom(const JetAt& jetAt, const ThinPlace& place, double least,
                                  double most)
 {
     constexpr int steps = 20;
-    constexpr double atRest = 1e-3, farthest = 2.5, doubt = 0.3;
-    constexpr double leastWeight = 0.02;
+    constexpr double atRest = 1e-3, farthest = 2.5; // a last step; from the start
+    constexpr double doubt = 0.3;                   // beyond the depths, on the way
+    constexpr double leastWeight = 0.02;            // of a foot in the centre (Rim::least)
     std::vector<Vec3d> y = place.sheets;
     const Vec3d start = rimOf(y).centre;
     Vec3d x = start;
@@ -88,7 +91,8 @@ std::optional<Middle> middleFrom(const JetAt& jetAt, const ThinPlace& place, dou
 template<typename JetAt>
 bool isNearest(const JetAt& jetAt, const Middle& middle)
 {
-    constexpr double nearer = 0.01, beyond = 0.5; // [voxel]
+    constexpr double nearer = 0.01; // by less than this a sheet is as near [voxel]
+    constexpr double beyond = 0.5;  // the middle's depth: farther feet are not tried [voxel]
     for (const Vec3d& foot : *middle.near) {
         if ((foot - middle.place).length() > middle.depth + beyond) continue;
         const auto found = closestFoot(jetAt, middle.place, foot);
@@ -97,7 +101,7 @@ bool isNearest(const JetAt& jetAt, const Middle& middle)
     return true;
 }
 
-/// S between voxels, linear along each axis.
+/// Trilinear interpolation of S at a point [voxel]; voxels without a leaf count as 0.
 double valueAt(const SparseField& S, const Vec3d& x)
 {
     const Coord low = Coord::floor(x);
