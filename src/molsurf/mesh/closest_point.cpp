@@ -30,6 +30,8 @@ struct Search {
     float radius(double distance) const { return float(distance * (1.0 + 1e-6) + margin); }
 };
 
+/// Called by Embree for each triangle near the point.
+/// @return whether the radius of the query has shrunk
 bool visit(RTCPointQueryFunctionArguments* arguments)
 {
     Search& search = *static_cast<Search*>(arguments->userPtr);

@@ -14,7 +14,9 @@ namespace molsurf
 
 /// The triangles of a closed manifold mesh by their half-edges: 3 t + k runs from corner k of
 /// triangle t to the next corner, and its twin runs the other way in the triangle beside. flip(),
-/// split() and collapse() keep the mesh a closed manifold of the same Euler number.
+/// split() and collapse() keep the mesh a closed manifold of the same Euler number. In their code h
+/// runs from a to b in (a, b, c), its twin g from b to a in (b, a, d); bc is the twin of the
+/// half-edge from b to c, and so on.
 class HalfEdges
 {
 public:

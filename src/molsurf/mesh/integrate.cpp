@@ -27,11 +27,11 @@ constexpr Orbit orbits[] = {{0.445948490915965, 0.223381589678011, 0.0},
                             {0.091576213509771, 0.109951743655322, 0.0},
                             {1.0 / 6.0, 0.0, 1.0 / 3.0}};
 
-constexpr double edgeCosine = 0.766; // of 40 degrees
-constexpr int maxSplits = 10;        // of triangles, one after the other
-constexpr int maxLevels = 6;         // of the refinement in parameters
-constexpr double transversality = 0.3;
-constexpr double residualVox = 1e-5; // |S|/|grad S| at a point of the surface [voxel]
+constexpr double edgeCosine = 0.766;   // of 40 degrees
+constexpr int maxSplits = 10;          // of triangles, one after the other
+constexpr int maxLevels = 6;           // of the refinement in parameters
+constexpr double transversality = 0.3; // least grad S.d/|grad S| on a line along d
+constexpr double residualVox = 1e-5;   // |S|/|grad S| at a point of the surface [voxel]
 
 /// A point of the surface with its normal, and its barycentric coordinates in the triangle of the
 /// mesh.
@@ -198,7 +198,9 @@ private:
         return true;
     }
 
-    /// @param[out] sums        by the rule of degree 4
+    /// Applies both rules to a part of patch_. With u and v the derivatives of x + t d by two
+    /// barycentric coordinates at a fixed t, dA = |grad S| (u x v).d / (grad S.d) times theirs.
+    /// @param[out] out         by the rule of degree 4
     /// @param[out] difference  of the two rules for the integral of K [sr]
     bool applyRules(const TrianglePart& part, TriangleIntegrals& out, double& difference)
     {

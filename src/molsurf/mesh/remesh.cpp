@@ -39,7 +39,8 @@ struct SurfacePoint {
     float slope, mean, gauss, residual;
 };
 
-/// The cosine of the least angle; 1 for a triangle without area.
+/// The cosine of the least angle, between an edge and the next one turned back; 1 for a triangle
+/// with an edge of length 0.
 float cosineOf(const Vec3f& a, const Vec3f& b, const Vec3f& c)
 {
     const Vec3f p = b - a, q = c - b, r = a - c;
@@ -285,6 +286,8 @@ void Remesher::findSizes()
     }
 }
 
+/// Splits edges longer than 4/3 of the target in the middle of the arc that their normals imply,
+/// moved onto S = 0.
 void Remesher::splitLong()
 {
     const std::size_t halves = 3 * edges_.triangles().size();
@@ -345,6 +348,8 @@ float Remesher::worstAfterCollapse(Id h, float longestEdge) const
     return worst;
 }
 
+/// Collapses edges shorter than 4/5 of the target, to the end that leaves the better angles; the
+/// other end must not be a tip.
 void Remesher::collapseShort()
 {
     const Id halves = Id(3 * edges_.triangles().size());
@@ -358,6 +363,7 @@ void Remesher::collapseShort()
     }
 }
 
+/// Flips edges where that brings the valences of the four vertices about them nearer to 6.
 void Remesher::flipEdges()
 {
     const Id halves = Id(3 * edges_.triangles().size());
@@ -398,6 +404,7 @@ Vec3f Remesher::slid(std::uint32_t v) const
     return at(v) + (far > most ? most / far : 1.0f) * way;
 }
 
+/// Tangential smoothing: slides all vertices at once, back onto S = 0, and takes back what folds.
 void Remesher::smooth()
 {
     const std::size_t count = mesh_.positions.size();
@@ -456,6 +463,7 @@ bool Remesher::fits(Id h) const
     return !isTooShort(h) && length(h) < longestMended * sizeOf(h);
 }
 
+/// Flips an edge if the least angle of its two triangles grows.
 bool Remesher::tryFlip(Id h)
 {
     if (!edges_.canFlip(h)) return false;
@@ -470,6 +478,7 @@ bool Remesher::tryFlip(Id h)
     return true;
 }
 
+/// Collapses an edge, to the better end, if the least angle about it grows.
 bool Remesher::tryCollapse(Id h)
 {
     if (!edges_.canCollapse(h)) return false;
@@ -506,7 +515,8 @@ bool Remesher::dropShortest()
     return any;
 }
 
-/// Moves a vertex along the surface, in steps that become smaller, while its worst angle grows.
+/// Pattern search: moves a vertex along the surface in six directions, with steps that halve, while
+/// the least angle about it grows.
 bool Remesher::tryMove(std::uint32_t v)
 {
     constexpr double first = 0.24, last = 0.03; // of the target
@@ -572,6 +582,7 @@ bool Remesher::mendAngles(double angle)
 }
 
 /// Numbers what is left: vertices by the leaf that they lie in, triangles by their first vertex.
+/// @return the largest |S| at a vertex that is new [Å]
 double Remesher::finish()
 {
     double largest = 0.0;

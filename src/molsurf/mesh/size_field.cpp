@@ -18,6 +18,8 @@ namespace
 
 constexpr std::uint64_t axisBits = 21, axisOffset = std::uint64_t(1) << 20;
 
+/// Packs a cell, 21 bits an axis, x highest. The offset keeps the numbers of cells from being
+/// negative, so a step to the next cell adds 1 to the bits of its axis.
 std::uint64_t keyOf(const openvdb::Coord& c)
 {
     std::uint64_t key = 0;
@@ -79,6 +81,7 @@ SizeField::SizeField(const Mesh& mesh, const EdgeTarget& target, const Progress&
             if (size < float(target_.edge)) out.push_back({cellOf(mesh.positions[v]), size});
         });
     sortCells(cells);
+    // Each cell with a size gives it to the 27 about it, so that at() looks into one.
     sizes_ = parallelCollect<Entry>(cells.size(), progress, [&](std::size_t i, auto& out) {
         constexpr std::uint64_t one = 1;
         for (int k = 0; k < 27; ++k)

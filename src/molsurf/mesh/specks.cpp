@@ -17,7 +17,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The voxels of one sign that hang together with a voxel, face by face.
+/// Flood fill: the voxels of one sign that are connected to a voxel through faces.
 /// @return empty if they do not stay in a box, as those beside the piece do
 std::vector<Coord> enclosedVoxels(const openvdb::FloatGrid::ConstAccessor& surface,
                                   const Coord& start, bool inside, const openvdb::CoordBBox& box)
@@ -42,7 +42,8 @@ struct Piece {
     std::vector<std::size_t> triangles;
 };
 
-/// How much of all directions a piece covers, seen from a point: 1 within it, 0 outside.
+/// The winding number of a piece about a point, without sign, by the solid angles of its triangles:
+/// 1 within it, 0 outside.
 double coverOf(const Mesh& mesh, const Piece& piece, const Vec3d& x)
 {
     double sum = 0.0;
@@ -55,7 +56,9 @@ double coverOf(const Mesh& mesh, const Piece& piece, const Vec3d& x)
     return std::abs(sum) / (4.0 * M_PI);
 }
 
-/// Changes the signs of the voxels that a piece encloses. Those of another piece may be as near.
+/// Changes the signs of the voxels that a piece encloses. Each connected set of voxels of one sign
+/// that begins beside its vertices, and stays in its box, is tried: the piece has to wind about one
+/// of them, since sets of other pieces may be as near. If none passes, the nearest set changes.
 void fill(const Mesh& mesh, const Piece& piece, openvdb::FloatGrid& surface)
 {
     const double voxel = surface.voxelSize()[0];

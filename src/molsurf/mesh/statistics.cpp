@@ -23,7 +23,8 @@ namespace
 constexpr int binBits = 16;
 constexpr std::size_t partSize = 1 << 18; // values that are summed together
 
-/// Where a value belongs among 65536 bins in ascending order: by its first 16 bits.
+/// Where a value belongs among 65536 bins in ascending order: by its first 16 bits. The bits of
+/// positive floats ascend with them; those of negative ones descend, and come first.
 std::uint32_t binOf(float value)
 {
     std::uint32_t bits;
@@ -171,6 +172,7 @@ std::vector<float> vertexAreas(const Mesh& mesh, const Progress& progress)
         const std::uint32_t first = slices.first(s), count = slices.first(s + 1) - first;
         slices.forEachTriangle(s, [&](std::size_t i) {
             const auto& t = mesh.triangles[i];
+            // Unsigned: what is below `first` wraps to a large number.
             if (t[0] - first >= count && t[1] - first >= count && t[2] - first >= count) return;
             const Vec3f p = mesh.positions[t[0]];
             const Vec3f u = mesh.positions[t[1]] - p, v = mesh.positions[t[2]] - p;

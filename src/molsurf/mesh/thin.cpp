@@ -115,8 +115,8 @@ private:
         return common == 2 && ofA_.size() + ofB_.size() > 6;
     }
 
-    /// The worst shape of the triangles that change if `from` goes to `to`: 1 for a triangle of
-    /// equal sides, 0 if one must not be made.
+    /// The worst shape of the triangles that change if `from` goes to `to`: 4 sqrt(3) times the
+    /// area over the sum of squared sides, 1 for equal sides; 0 if one must not be made.
     double worstWithout(std::uint32_t from, std::uint32_t to) const
     {
         constexpr double steepest = 0.2; // cosine of the largest turn of a triangle

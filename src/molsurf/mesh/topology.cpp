@@ -30,7 +30,7 @@ void forEachTriangle(const Mesh& mesh, const Progress& progress, const F& f)
     });
 }
 
-/// Triangles listed by the places of their corners.
+/// Counting sort of triangles by the places of their corners, by all threads at once.
 /// @param[in] visit  visit(i, take) calls take(place) for corners of triangle i
 template<typename F>
 VertexTriangles listed(const Mesh& mesh, std::size_t places, const Progress& progress,
@@ -120,8 +120,9 @@ struct Fans {
     std::size_t size() const { return begins.size() - 1; }
 };
 
-/// The first fan from number v on that is not seen at a glance to be one turn about its vertex, of
-/// at most as many triangles as there are lanes.
+/// The first fan from number v on that is not one turn about its vertex, or has more triangles than
+/// there are lanes.
+/// @return the number of fans if there is none
 MOLSURF_KERNEL std::size_t firstDoubtful(const Fans& fans, std::size_t v)
 {
     const Ints lane = laneNumbers(), bit = splat(1) << lane;
@@ -145,6 +146,9 @@ MOLSURF_KERNEL std::size_t firstDoubtful(const Fans& fans, std::size_t v)
     return v;
 }
 
+/// Checks a fan by walking about its vertex from triangle to triangle; if that is no one turn, by
+/// counting the triangles that run out and in along each edge. No triangles count as manifold, more
+/// than 64 as not.
 /// @param[in] k  number of the fan
 Topology checkFan(const Fans& fans, std::size_t k)
 {
@@ -177,7 +181,8 @@ Topology checkFan(const Fans& fans, std::size_t k)
 }
 
 /// Calls take(place, out, in) for each corner of a triangle whose vertex is one of `count` from
-/// `first` on; the place is the vertex's number among them.
+/// `first` on; the place is the vertex's number among them. (Unsigned: a vertex before `first` has
+/// a large number.)
 template<typename F>
 void visitCorners(const std::array<std::uint32_t, 3>& t, std::uint32_t first, std::uint32_t count,
                   const F& take)
