@@ -9,7 +9,8 @@ namespace molsurf
 namespace
 {
 
-/// The cubic through the values at -1, 0, 1, 2 along a line, at t.
+/// Catmull-Rom interpolation between 0 and 1, at t: the cubic with the values there, and with the
+/// slopes that central differences of those at -1 to 2 give.
 double cubic(const float* p, int step, double t)
 {
     const double a = p[-step], b = p[0], c = p[step], d = p[2 * step];

@@ -17,6 +17,7 @@ double interfaceEnergy(const SparseField& phi, const GaussianSum& sum, const Wei
     const double energy = parallelSum<double>(phi.table.size(), progress, [&](std::size_t n) {
         thread_local EdgeCrossings crossings;
         double own = 0.0;
+        // An edge that is crossed begins within its own length of the interface, and a little more.
         const LeafMask near = phi.table.active(n) & within(phi.leaf(n), float(1.8 * h));
         if (!near.any() || !region.owned.isInside(phi.table.origin(n))) return own;
         EdgeCrossings::Block block;

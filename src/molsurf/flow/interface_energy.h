@@ -14,7 +14,7 @@ namespace molsurf
 {
 
 /// The integral of the metric w over the zero set of a level set [Å^2], by the places where it
-/// crosses edges between voxels: an edge along axis a that is crossed stands for h^2 |n_a| of the
+/// crosses edges between voxels: an edge along axis a that is crossed counts for h^2 |n_a| of the
 /// area, since a piece dA of it crosses |n_a| dA/h^2 of them. Places and normals come from cubic
 /// interpolation along the edge, psi there from the Gaussians themselves.
 ///

@@ -52,6 +52,7 @@ InterfaceWatch InterfaceMotion::watch()
         for (int row = 0; row < 64; ++row) {
             if (near.row(row) == 0) continue;
             for (const int stride : {64, 8, 1}) {
+                // Edges that end in another leaf are left out.
                 if ((stride == 64 && row >= 56) || (stride == 8 && row % 8 == 7)) continue;
                 alignas(32) float way[leafDim];
                 waysInRow(leaf, 8 * row, stride, inverse_, way);

@@ -54,6 +54,7 @@ bool lacksNeighbour(const LeafTable& table, std::size_t n, const LeafMask& insid
                domain.isInside(table.origin(n).offsetBy(
                    leafDim * (k / 9 - 1), leafDim * (k / 3 % 3 - 1), leafDim * (k % 3 - 1)));
     };
+    // The neighbours before and behind along x, y and z, and the faces of the leaf beside them.
     return (w[0] && lacks(4)) || (w[7] && lacks(22)) || ((all & 0xff) && lacks(10)) ||
            ((all >> 56) && lacks(16)) || ((all & 0x0101010101010101ull) && lacks(12)) ||
            ((all & 0x8080808080808080ull) && lacks(14));

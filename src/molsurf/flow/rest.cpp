@@ -58,6 +58,8 @@ MOLSURF_INLINE float rootAtFoot(float slope, float kappa, float m, const Weights
     return (beta + std::sqrt(larger(beta * beta + alpha * gamma, 0.0f))) / larger(alpha, 0.5f);
 }
 
+/// levelsAtRest() for a leaf, without a mean: fixed-point iteration, twice, of the level and the
+/// foot on it, where the derivatives of psi are taken to first order.
 MOLSURF_KERNEL void levelRows(const float* __restrict block, const float* __restrict slopes,
                               float voxel, const Weights weights, float* __restrict levels)
 {
@@ -205,7 +207,7 @@ RestLevel levelAtRest(const PsiJet& psi, double least, const Weights& weights)
     const double found = (beta + root) / std::max(alpha, 0.5);
     const double e = std::clamp(found, lowest / (1.0 + q), most / (1.0 + q));
     RestLevel out{std::log(e), curvature};
-    // alpha e^2 - 2 beta e - gamma = 0, whose derivative by e is 2 root.
+    // By implicit differentiation of alpha e^2 - 2 beta e - gamma, whose derivative by e is 2 root.
     const double steep = 2.0 * root * e;
     if (root < 1e-3 || e != found) return out;
     const double isMore = more > 0.0 ? 1.0 : 0.0;
