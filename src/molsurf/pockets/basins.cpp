@@ -58,7 +58,7 @@ public:
     /// @return the root of the one that they become, or the first
     std::int32_t meet(std::int32_t a, std::int32_t b, float clearance)
     {
-        // A part is made before all with lower peaks.
+        // Parts are made in the order of falling peaks: the later one has the lower peak.
         if (clearance >= share_ * peaks_[std::size_t(std::max(a, b))]) return join(a, b);
         auto& neck = necks_[std::minmax(a, b)];
         neck = std::max(neck, clearance);

@@ -36,7 +36,8 @@ double cross(const std::array<double, 2>& x, const std::array<double, 2>& y)
 }
 
 /// Whether a ball that touches three others cannot grow by moving in the plane: the directions to
-/// it from their centres, seen in the plane, leave no side free.
+/// it from their centres, seen in the plane, leave no side free. From each to the next they then
+/// turn the same way.
 bool isHeld(const std::array<Seen, 3>& seen, double a, double b)
 {
     constexpr double flat = 1e-9; // of two directions, for the middle of four balls and the like

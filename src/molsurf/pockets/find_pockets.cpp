@@ -45,7 +45,6 @@ std::vector<std::vector<PocketReport::Lining>> liningsOf(const std::vector<Ball>
     return out;
 }
 
-/// The report of a basin itself.
 /// The radius of the largest ball that gets to a mouth: exactly, where it is a neck between balls
 /// that it just passes, and not the mouth itself.
 double passingRadius(const BasinMeasure::Mouth& mouth, const Clearance& clearance, double voxelSize)
@@ -56,6 +55,9 @@ double passingRadius(const BasinMeasure::Mouth& mouth, const Clearance& clearanc
     return between ? neck->radius : mouth.radius;
 }
 
+/// The report of a basin by its own measures.
+/// @param[in] peak        the largest clearance in it [Å]
+/// @param[in] leastMouth  mouths that are narrower at their widest do not count [Å]
 PocketReport pocketOf(const BasinMeasure& basin, double peak, double leastMouth,
                       const OuterDepth& outer,
                       const std::function<double(const BasinMeasure::Mouth&)>& passing)
@@ -74,7 +76,8 @@ PocketReport pocketOf(const BasinMeasure& basin, double peak, double leastMouth,
     return out;
 }
 
-/// Takes the exact measures of a pocket that is a whole cavity. The balls about it tell them.
+/// Takes the exact measures of a pocket that is a whole cavity: those of the piece of the
+/// solvent-excluded surface of the balls about it that has the nearest volume, if one is near.
 void takeExact(const BallIndex& balls, double probe, const BasinMeasure& basin,
                const Progress& progress, PocketReport& pocket)
 {
@@ -97,7 +100,7 @@ void takeExact(const BallIndex& balls, double probe, const BasinMeasure& basin,
     }
 }
 
-/// Says of each basin whether a way leads out.
+/// Union-find of basins by their necks: whether a way leads out of each.
 std::vector<char> opened(const Basins& basins, const std::vector<BasinMeasure>& measures,
                          double leastMouth)
 {

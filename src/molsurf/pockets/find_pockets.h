@@ -35,8 +35,7 @@ struct Pockets {
 /// a cut below the surface of that one, and splits it at necks.
 /// @param[in] balls  at least one, every one finite
 /// @param[in] at     if there are any: only the pocket that most of these places are near to,
-/// within
-///                   4 Å, which may be none [Å]
+///                   within 4 Å, which may be none [Å]
 Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options, double voxelSize,
                     const std::vector<openvdb::Vec3d>& at, const Progress& progress);
 

@@ -53,8 +53,7 @@ struct Way {
     std::vector<double> distances; ///< along it [Å]
 };
 
-/// The lattice for an axis.
-/// @param[in] low, high  what it has to cover along the axis [Å]
+/// The extent of a lattice along an axis that holds all balls.
 PoreGrid::Extent extentOf(const std::vector<Ball>& balls, const Vec3d& axis, double spacing)
 {
     const auto frame = PoreGrid::frameOf(axis);
@@ -152,7 +151,9 @@ Ends endsThrough(const std::vector<Ball>& balls, const Vec3d& axis, const Progre
                                       "find closed ones, too]");
 }
 
-/// The place of an end: that itself, or the nearest place with the most room.
+/// The place of an end: that itself if no ball holds it; else, of those within 5 Å, the one with
+/// the most room, less 0.2 Å for each Å of way.
+/// @throws Error(ErrorKind::Input) if a ball holds an end that is a point
 Vec3d placeOf(const BallSet::PoreWay::End& end, const std::vector<Ball>& balls,
               const Clearance& clearance)
 {
@@ -241,7 +242,9 @@ Way smoothed(const std::vector<Vec3d>& points)
     return out;
 }
 
-/// Where sections are, and a point of the way in each.
+/// The sections, with a point of the way as their origin: the one with the most room, where the way
+/// meets a section more than once. They are at right angles to the axis, at even heights, if the
+/// way follows it everywhere; else to the way, at even distances along it.
 std::vector<Plane> sectionsOf(const std::vector<Vec3d>& points, const Ends& ends,
                               const Clearance& clearance)
 {
@@ -284,7 +287,8 @@ public:
     }
 
     /// The largest ball that the origin of the plane can go to within it without passing where it
-    /// is much narrower.
+    /// is much narrower: hill climbing to a peak, flood fill down to `level` from there, and the
+    /// exact search about each point that may beat the best.
     FittedBall widest()
     {
         constexpr double narrower = 0.5; // [Å]

@@ -65,6 +65,7 @@ double shareAbove(const std::array<const CellCorner*, 4>& c, int above)
     if (above == 4) return 1.0;
     if (above == 1) return cut(0, 1) * cut(0, 2) * cut(0, 3);
     if (above == 3) return 1.0 - (1.0 - cut(0, 3)) * (1.0 - cut(1, 3)) * (1.0 - cut(2, 3));
+    // A wedge, as three tetrahedra.
     const double s = cut(0, 2), t = cut(0, 3), u = cut(1, 2), w = cut(1, 3);
     return s * t + s * (1.0 - t) * w + (1.0 - s) * u * w;
 }
@@ -124,6 +125,8 @@ public:
     }
 
 private:
+    /// Adds the shares of the cell at voxel v of leaf n, by the six tetrahedra of Kuhn's
+    /// triangulation: corners 0 and 7 and two between them.
     void measureCell(std::size_t n, int v, const std::array<CellCorner, 8>& corners,
                      LeafShare& out) const
     {
@@ -153,7 +156,8 @@ private:
         }
     }
 
-    /// Where the room ends in a tetrahedron.
+    /// Measures where the room ends in a tetrahedron: a triangle, or a quad of two, whose corners
+    /// follow each other about it.
     template<typename ShareOf>
     void measureFace(std::size_t n, int v, const std::array<const CellCorner*, 4>& c, int above,
                      const ShareOf& shareOf, LeafShare& out) const
@@ -270,7 +274,8 @@ openvdb::Vec3d pointOf(const VoidField& space, VoxelPlace place)
            space.voxelSize;
 }
 
-/// The widest ways from the widest voxels of basins to their mouths: where each is narrowest.
+/// Widest paths (Dijkstra's search with the narrowest clearance in the place of the length) from
+/// the widest voxels of basins to their mouths: where each is narrowest.
 class Passages
 {
 public:

@@ -24,7 +24,9 @@ constexpr int directions[16][2] = {{1, 0},  {2, 1},  {1, 1},  {1, 2},   {0, 1}, 
                                    {-1, 1}, {-2, 1}, {-1, 0}, {-2, -1}, {-1, -1}, {-1, -2},
                                    {0, -1}, {1, -2}, {1, -1}, {2, -1}};
 
-/// One row of a layer gets the distances to a ball: with least ones, so that order does not matter.
+/// Lowers the room of points begin to end of a row to the distance to a ball, where that is less.
+/// @param[in] start  of the row [Å]
+/// @param[in] at     the ball's place along the row, its squared distance from the row, its radius
 void lower(float* row, int begin, int end, double start, double spacing, const Vec3d& at)
 {
     const float x0 = float(start - at[0]), h = float(spacing), c = float(at[1]), r = float(at[2]);
@@ -64,6 +66,8 @@ PoreGrid::PoreGrid(const std::vector<Ball>& balls, const Extent& extent, const P
     });
 }
 
+/// The room in a layer, ball by ball and row by row.
+/// @param[in] sorted  balls in the lattice's frame, ascending along the axis
 void PoreGrid::fillLayer(int layer, const std::vector<Ball>& sorted, double largest)
 {
     const double height = extent_.low[2] + layer * extent_.spacing, reach = largest + mostRoom;
@@ -90,6 +94,8 @@ void PoreGrid::fillLayer(int layer, const std::vector<Ball>& sorted, double larg
     }
 }
 
+/// Counts the free ones of 16 directions at the points of a layer: sweeps carry the least room on
+/// the way from point to point, so that no ray is followed for each.
 void PoreGrid::findOpen(int layer)
 {
     const std::size_t begin = index({0, 0, layer});

@@ -38,7 +38,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// A point with its value: the least first, of equals the lower index.
 using Entry = std::pair<double, std::size_t>;
 
-/// Best-first search over a lattice: the value of a point follows from that of the one before it,
+/// Dijkstra's search over a lattice: the value of a point follows from that of the one before it,
 /// and never falls.
 class Search
 {

@@ -41,8 +41,7 @@ public:
 
     /// Looks at a leaf.
     /// @param[out] below  of the voxels that have room, and of those beside them; not a number
-    /// where
-    ///                    the clearance decides
+    ///                    where the clearance decides
     Cubes evaluate(const Coord& origin, const float* clearance, float* below) const
     {
         std::fill_n(below, leafSize, -float(cut_));
