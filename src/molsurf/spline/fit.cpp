@@ -29,7 +29,7 @@ Spline fitSpline(const SparseField& field, int level, const Progress& progress)
         const std::int32_t m = samples.table.find(coarse);
         field.table.active(n).forEach([&](int v) {
             const Coord local(v >> 6, v >> 3 & 7, v & 7);
-            if ((local.x() | local.y() | local.z()) & (stride - 1)) return;
+            if ((local.x() | local.y() | local.z()) & (stride - 1)) return; // between samples
             const int w =
                 int(openvdb::FloatTree::LeafNodeType::coordToOffset(coarse + (local >> level)));
             samples.leaf(m)[w] = field.leaf(n)[v];

@@ -114,7 +114,9 @@ MOLSURF_KERNEL void leafOfLinesAlongZ(const float (*row)[64], float* __restrict 
     for (int x = 0; x < 8; ++x) transpose8(row[0] + 8 * x, 64, leaf + 64 * x, 8);
 }
 
-/// @param[in] field  values on the leaves of the table
+/// Gathers the 64 lines through leaf n along an axis. A line's number is 8 times the first of the
+/// two other coordinates plus the second.
+/// @param[in] field  values on the leaves of the table; 0 where there is no leaf
 void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, int axis,
                  Lines& lines)
 {
