@@ -93,6 +93,8 @@ private:
         }
     }
 
+    /// Copies the rows of a column into the block: `centre`, `under` and `over` are the first row
+    /// of 8 voxels and the ends beside it. Without a leaf beside, the leaf's own rim is repeated.
     template<int dx, int dy, bool below, bool above>
     void copyRows(const T* const* column, const T* own)
     {

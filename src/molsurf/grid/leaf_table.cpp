@@ -70,7 +70,7 @@ bool before(const Coord& a, const Coord& b)
 
 } // namespace
 
-/// The slot of a tile, or the empty one where it would be.
+/// The slot of a tile, or the empty one where it would be: a hash table with linear probing.
 std::size_t LeafTable::Layout::slotOf(const Coord& place) const
 {
     const std::size_t last = slots.size() - 1;
@@ -100,7 +100,7 @@ LeafTable::LeafTable(std::vector<Coord> origins) : active_(origins.size())
     if (!std::is_sorted(l.origins.begin(), l.origins.end(), before)) {
         tbb::parallel_sort(l.origins.begin(), l.origins.end(), before);
     }
-    l.slots.assign(64, -1);
+    l.slots.assign(64, -1); // twice as many as tiles, or more
     std::int32_t last = -1; // the tile of the leaf before
     for (std::size_t n = 0; n < l.origins.size(); ++n) {
         const Coord place = l.origins[n] >> 6, leaf = (l.origins[n] >> 3) & 7;
@@ -161,7 +161,8 @@ namespace
 constexpr std::uint64_t rowEnd = 0x8080808080808080ull; // z = 7 of all rows
 constexpr std::uint64_t rowBegin = 0x0101010101010101ull;
 
-/// One yz plane of 8 x 8 voxels and the planes of the leaves about it.
+/// One yz plane of 8 x 8 voxels and the planes of the leaves about it. Voxel (y, z) is bit 8 y + z:
+/// a step along y shifts by 8, one along z by 1 but for the ends of rows.
 struct Planes {
     std::uint64_t at[3][3]; // [dy + 1][dz + 1]
 };
