@@ -22,7 +22,7 @@ public:
         for (std::size_t i = 0; i < n; ++i) parent_[i].store(std::uint32_t(i), relaxed);
     }
 
-    /// The root of the set of i, as far as sets are joined by now.
+    /// The root of the set of i, as far as sets are joined by now; halves the path to it.
     std::uint32_t find(std::uint32_t i)
     {
         while (true) {
