@@ -41,8 +41,7 @@ struct BallPlaces {
 /// Gives every ball a value.
 ///
 /// - bfactor: of the file; if they are the same within every residue of a chain and in [0, 100] or
-/// [0, 1], as predicted
-///   models have their pLDDT there, they are taken as that, and a warning says so.
+///   [0, 1], they are taken as the pLDDT of a predicted model, with a warning.
 /// - occupancy: of the file.
 /// - charge: of a PQR file [e].
 /// - hydrophobicity: of the amino acid (Kyte and Doolittle, J. Mol. Biol. 157:105-132, 1982).

@@ -152,6 +152,7 @@ private:
         return units;
     }
 
+    /// Cuts units into beads of about so many atoms: their number is rounded.
     void cut(std::vector<Unit> units, int atoms)
     {
         std::size_t count = 0;
@@ -163,7 +164,8 @@ private:
 
     using UnitIterator = std::vector<Unit>::iterator;
 
-    /// Cuts across the longest extent so that the parts hold the atoms of their share of the beads.
+    /// Recursive bisection, as of a k-d tree: cuts across the longest extent so that both parts
+    /// hold the atoms of their share of the beads.
     void cut(UnitIterator begin, UnitIterator end, std::size_t beads)
     {
         if (beads <= 1 || end - begin <= 1) {

@@ -295,6 +295,7 @@ public:
         }
         default:
             const int size = by_.residues;
+            // (number - 1) / size, rounded down for numbers below 1, too.
             const int block =
                 residue.number >= 1 ? (residue.number - 1) / size : (residue.number - size) / size;
             return {chain + "/" + std::to_string(block * size + 1) + "-" +

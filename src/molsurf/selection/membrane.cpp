@@ -70,7 +70,7 @@ std::vector<Vec3d> lipidWays(const Structure& structure, const Model& model)
     return ways;
 }
 
-/// The direction along which lipids lie.
+/// The direction along which lipids lie: the principal axis of the mean of n n^T over their ways n.
 std::optional<Vec3d> normalOfLipids(const Structure& structure, const Model& model)
 {
     constexpr std::size_t fewest = 16; // lipids

@@ -112,8 +112,8 @@ std::vector<LigandAtoms> waitingIn(const Structure& structure, const Model& mode
     return out;
 }
 
-/// Lets the molecules that wait join what touches them. There are few of them, so that an index of
-/// them takes less than one of the polymers and their copies.
+/// Flood fill: lets the molecules that wait join what touches them. There are few of them, so that
+/// an index of them takes less than one of the polymers and their copies.
 class Joining
 {
 public:

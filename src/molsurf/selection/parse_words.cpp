@@ -86,7 +86,8 @@ public:
         return found;
     }
 
-    /// The text here up to a blank, a bracket or a sign; a bracket or a sign alone.
+    /// The text here up to a blank, a bracket or a sign; a bracket or a sign alone, or two signs
+    /// that are one: && || <= >= == !=.
     string_view token() const
     {
         std::size_t end = at_;
@@ -332,7 +333,7 @@ private:
     std::string word_;
 };
 
-/// Reads an expression from left to right.
+/// Recursive descent: a function for each rule of the grammar at parseWords().
 class WordParser
 {
 public:
@@ -494,7 +495,7 @@ private:
         const std::string word = takeToken();
         in_.skipBlanks();
         if (word.size() == 1 && !isIn("<>=!", in_.peek()) &&
-            hasChain(structure_, word)) { // a chain b
+            hasChain(structure_, word)) { // as "b", of which there is a chain
             in_.goTo(begin);
             return pattern();
         }

@@ -295,7 +295,7 @@ void dropDuplicates(const Structure& structure, Filter& filter, BallSet& out)
     const std::size_t atom = std::size_t(out.balls[first].atom);
     std::size_t kept = 0, copy = 0;
     for (std::size_t i = 0; i < out.balls.size(); ++i) {
-        while (begin[copy] == i) begin[copy++] = kept;
+        while (begin[copy] == i) begin[copy++] = kept; // empty copies begin at the same ball
         if (!duplicate[i]) out.balls[kept++] = out.balls[i];
     }
     std::fill(begin.begin() + std::ptrdiff_t(copy), begin.end(), kept);

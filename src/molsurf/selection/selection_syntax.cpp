@@ -38,7 +38,7 @@ std::uint32_t kindsOf(string_view word)
     return 0;
 }
 
-/// Reads an expression from left to right.
+/// Recursive descent: a function for each part of the grammar at parseSelection().
 class Parser
 {
 public:

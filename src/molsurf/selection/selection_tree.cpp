@@ -178,7 +178,7 @@ private:
 bool NameGlob::matches(std::string_view name) const
 {
     if (!pattern) return name == text;
-    // Goes back to the last * where the letters behind it differ.
+    // Backtracking: where letters differ, the last * takes one letter more.
     std::size_t at = 0, in = 0, star = std::string::npos, from = 0;
     while (in < name.size()) {
         if (at < text.size() && text[at] == '*') {

@@ -73,7 +73,8 @@ private:
     std::vector<openvdb::BBoxd> boxes_;
 };
 
-/// The copies nearest to a point, one of each orbit; the point moves to their middle.
+/// The copies nearest to a point, one of each orbit; as in k-means, the point then moves to their
+/// middle, until they stay the same.
 /// @return by orbit
 std::map<std::size_t, std::size_t> nearestOfOrbits(const Copies& copies, const RotationGroup& group)
 {
@@ -168,7 +169,7 @@ void surround(double reach, BallSet& out)
             bool close = false;
             for (std::size_t d = 0; d < copies && !close; ++d)
                 close = (middle - middles[d]).length() < radii[c] + radii[d] + reach;
-            if (!close) continue;
+            if (!close) continue; // by balls about the boxes of copies
             images.assign(unit.begin() + std::ptrdiff_t(placement.begin[c]),
                           unit.begin() + std::ptrdiff_t(placement.begin[c + 1]));
             near.assign(images.size(), 0);
