@@ -36,9 +36,9 @@ struct IntegratedSurface {
 /// @param[in] tolerance  what the differences of the two rules may add up to over the surface [sr],
 ///                       > 0; the integral of K was 20 to 1000 times more accurate on proteins
 /// @return IntegratedSurface::sums has an unresolvedArea > 0 where a triangle is no graph over the
-/// surface, as
-///         in crevices that the voxels do not resolve; such a triangle is taken flat, with the
-///         spherical image of its three normals for the integral of K and 0 for those of H and H^2
+///         surface, as in crevices that the voxels do not resolve; such a triangle is taken flat,
+///         with the spherical image of its three normals for the integral of K and 0 for those of
+///         H and H^2
 IntegratedSurface integrateSurface(const Mesh& mesh, const Spline& spline, double tolerance,
                                    const Progress& progress);
 

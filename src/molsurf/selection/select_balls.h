@@ -34,8 +34,7 @@ namespace molsurf
 /// Radii of .pqr, .xyzr and .xyzrn come from the file; options.radii must then be "bondi", its
 /// default.
 ///
-/// @param[in] probe  that the surface is made with: radii of beads depend on it, see sizeBeads()
-/// [Å]
+/// @param[in] probe  of the surface: radii of beads depend on it, see sizeBeads() [Å]
 /// @throws Error(ErrorKind::Input) if nothing is selected or nothing is left, if the model, the
 ///         alternate location, the assembly or the radii file does not exist, or if the molecule is
 ///         larger than 1e6 Å

@@ -56,6 +56,7 @@ std::int64_t numberAt(const Header& header, std::size_t at, std::size_t size)
     return number;
 }
 
+/// Whether the checksum of a header is right.
 bool isHeader(const Header& header)
 {
     constexpr std::size_t at = 148, size = 8; // the sum counts itself as spaces
@@ -65,7 +66,7 @@ bool isHeader(const Header& header)
     return numberAt(header, at, size) == sum;
 }
 
-/// What PAX records, "LENGTH KEY=VALUE" each, tell of the member behind them.
+/// Reads the name and the size of the member behind PAX records, "LENGTH KEY=VALUE" each.
 void readRecords(std::string_view text, std::string& name, std::int64_t& size)
 {
     while (!text.empty()) {

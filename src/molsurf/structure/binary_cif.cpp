@@ -220,7 +220,7 @@ void decodeDelta(const json& encoding, Values& values)
     for (std::int64_t& value : values.integers) value = std::int64_t(sum += std::uint64_t(value));
 }
 
-/// Several small integers stand for one: all but the last are the largest or least that fits.
+/// Sums up runs of small integers: all but the last of a run are the largest or least that fits.
 void decodeIntegerPacking(const json& encoding, Values& values)
 {
     expectIntegers(values, "IntegerPacking");
@@ -252,6 +252,7 @@ std::vector<std::int64_t> integersOf(const json& bytes, const json& encodings, A
     return std::move(values.integers);
 }
 
+/// Texts by an index each: they lie in one text, and offsets tell where each begins and ends.
 void decodeStringArray(const json& encoding, Values& values, Allowance& allowance)
 {
     if (values.kind != Values::Kind::Bytes) damaged("StringArray: expected bytes");

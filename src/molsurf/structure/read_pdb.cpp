@@ -101,7 +101,7 @@ private:
     std::set<std::string, std::less<>> wide_; ///< columns 18-22 of residues with a letter in 21
 };
 
-/// A number of a residue; letters in front count on from 9999 (hybrid-36).
+/// A number of a residue. Hybrid-36 counts on from 9999 in base 36: A000 (firstOfLetters) is 10000.
 int residueNumber(string_view field)
 {
     int number = 0;
@@ -160,8 +160,8 @@ public:
     }
 
 private:
-    /// Keeps the numbers of a record CONECT: an atom, and up to four that it is bonded to. Some
-    /// programs say a double bond twice.
+    /// Counts the bonds of a record CONECT, an atom and up to four that it is bonded to, for each
+    /// direction. Some programs give a double bond twice.
     void connect(string_view line)
     {
         constexpr std::size_t first = 6, width = 5, most = 4;

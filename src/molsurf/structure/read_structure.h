@@ -17,8 +17,7 @@ namespace molsurf
 /// Reads a structure.
 ///
 /// The format is found from the content; the extension decides only where the content leaves a
-/// choice (PDB or PQR). What is packed is known by its first bytes, whatever
-/// the name.
+/// choice (PDB or PQR). Packed files are known by their first bytes, whatever the name.
 ///
 /// The readers accept more than the descriptions of the formats allow:
 /// - PDB: columns 73-80 of pre-1992 files, which hold the entry name and a line number, are
@@ -44,9 +43,8 @@ namespace molsurf
 /// @param[in] progress  may end the reading between its stages: unpacking, parsing, making atoms
 /// @param[in] memory    that the process may take [byte]; see SelectOptions::memory
 /// @throws Error(ErrorKind::Input) if reading is estimated to take more memory, or if the file does
-///         not exist, is a folder, is empty, too large or
-///         cut short, is not a structure, has no model or no atom, or has a coordinate that is not
-///         finite or lies beyond 1e6 Å
+///         not exist, is a folder, is empty, too large or cut short, is not a structure, has no
+///         model or no atom, or has a coordinate that is not finite or lies beyond 1e6 Å
 /// @throws Cancelled if the progress object says so
 Structure readStructure(const std::string& path, std::size_t maxBytes = 0,
                         const Progress& progress = Progress(), std::size_t memory = 0);

@@ -17,8 +17,7 @@ namespace molsurf
 /// Reads the text of a PDB file; see readStructure() for what is accepted.
 /// @param[in] progress  may end the reading between its stages
 /// @throws Error(ErrorKind::Input) with the line, if the coordinates of an atom are no numbers, or
-/// if
-///         a record is nearly ATOM; a text without atoms gives none
+///         if a record is nearly ATOM; a text without atoms gives none
 /// @throws Cancelled if the progress object says so
 Structure readPdb(std::string text, const std::string& path, const Progress& progress);
 

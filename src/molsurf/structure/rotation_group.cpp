@@ -82,6 +82,7 @@ RotationGroup findRotationGroup(const Assembly& assembly, const Vec3d& reference
     group.orbitOf.assign(copies, copies);
     group.motionOf.assign(copies, 0);
     for (std::size_t i = 0; i < copies; ++i) {
+        // There and back by a motion leads to the first of the copies that stand where copy i does.
         const std::size_t first = group.images[group.inverse[1]][group.images[1][i]];
         if (first != i || group.orbitOf[i] != copies) continue;
         for (std::size_t k = 0; k < order; ++k) {

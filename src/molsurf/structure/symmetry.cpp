@@ -114,7 +114,8 @@ private:
         return cell;
     }
 
-    /// The first copy of the part of copy `like` with this rotation and position.
+    /// The first copy of the part of copy `like` with this rotation and position. Cells are two
+    /// tolerances wide, so that those within one of the position lie in eight cells.
     std::size_t find(const Mat3d& rotation, const Vec3d& position, std::size_t like) const
     {
         std::size_t found = size();
@@ -219,6 +220,8 @@ struct Screw {
     double tolerance; ///< of the rise [Å]
 };
 
+/// The screw motion of a rigid motion (Chasles): of the shift t, the part across the axis u gives
+/// the point (t + u x t / tan(angle/2))/2 of the line.
 /// @param[in] distance  that the motion moves the molecule by [Å]
 Screw screwOf(const Motion& motion, double distance)
 {

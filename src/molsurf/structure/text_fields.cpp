@@ -22,7 +22,7 @@ bool isBlank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/// The number of letters to change, to add or to leave out.
+/// Levenshtein distance: the number of letters to change, to add or to leave out.
 std::size_t editDistance(std::string_view a, std::string_view b)
 {
     std::vector<std::size_t> row(b.size() + 1);
