@@ -73,7 +73,6 @@ void addArc(const PlacedBall& ball, std::int32_t i, const Cap& cap, const Circle
     double angle = std::atan2(gap.beginX * gap.endY - gap.beginY * gap.endX,
                               gap.beginX * gap.endX + gap.beginY * gap.endY);
     if (angle <= 0.0) angle += 2.0 * M_PI;
-    // The arc's middle is its begin, turned by half of its angle.
     const double half = 0.5 * angle, c = std::cos(half), s = std::sin(half);
     const std::int32_t before = caps.other[std::size_t(gap.before)];
     const std::int32_t after = caps.other[std::size_t(gap.after)];
@@ -266,8 +265,7 @@ void place(const BallParts& parts, std::size_t ball, const std::vector<Counts>& 
     }
 }
 
-/// The boundary of balls in general position. Blocks of balls find their parts in parallel; those
-/// of exposed balls are then copied to their places in the lists of all.
+/// The boundary of balls in general position.
 /// @throws SpecialPosition if they are not
 BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress)
 {
@@ -398,7 +396,6 @@ bool capsOverlap(const BallBoundary& boundary, const Patch& patch, const Cap& a,
     if (sum > rounding && std::abs(apart) > rounding * (1.0 + 1.0 / sineA + 1.0 / sineB))
         return apart > 0.0;
 
-    // The same in quadruple precision, where rounding may decide.
     const auto planeOf = [&](const Cap& cap) {
         return quadPlane(boundary.balls[std::size_t(patch.ball)],
                          boundary.balls[std::size_t(cap.other)]);

@@ -45,8 +45,6 @@ BallIndex::BallIndex(const std::vector<Ball>& balls, const CellSize& cell)
 
 /// Adds the balls of a class, sorted by cells. Each column has a run of `begins_`: the place of the
 /// first ball of each of its cells, and the end of the last.
-/// @param[in] members  indices of the balls
-/// @param[in] cell     edge of the cells [Å]
 void BallIndex::addLevel(const std::vector<Ball>& balls, const std::vector<std::int32_t>& members,
                          double cell)
 {

@@ -126,7 +126,6 @@ CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std:
         followRays(&u.x[at], &u.y[at], &u.z[at], caps.rounded, from, to);
         for (std::size_t d = 0; d < bundle; ++d) {
             const double begin = from[d], length = std::max(from[d], to[d]);
-            // Its mean is the share of the ball that lies in the cell.
             const double cubes = length * length * length - begin * begin * begin;
             sum += cubes;
             squares += cubes * cubes;

@@ -53,7 +53,6 @@ Cap capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t other)
     return cap;
 }
 
-/// The squared distance of a point from an arc.
 double distance2(const Arc& arc, const Vec3d& x)
 {
     const Vec3d w = x - arc.centre;
@@ -71,9 +70,8 @@ double distance2(const Arc& arc, const Vec3d& x)
     throw Error(ErrorKind::Check, std::string("boundary: ") + what);
 }
 
-/// Union-find of the arcs of a sphere by the corners where they meet: for each arc the number of
-/// its loop.
-/// @param[out] count  of the loops
+/// Union-find of the arcs of a sphere by the corners where they meet: the number of each
+/// one's loop.
 std::vector<std::uint32_t> findLoops(const BallBoundary& boundary, const Sides& sides,
                                      std::size_t& count)
 {
@@ -162,8 +160,7 @@ std::vector<std::size_t> findFaces(const BallBoundary& boundary, const Patch& pa
     return face;
 }
 
-/// The faces of a patch with their areas and integrated normals (measureBoundary() has
-/// the formulas).
+/// The faces of a patch with their areas and integrated normals; measureBoundary() has formulas.
 std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch, const Sides& sides)
 {
     const double R = patch.radius;

@@ -36,9 +36,8 @@ struct CapPointers {
     const double *x, *y, *z, *cosine;
 };
 
-/// Finds the parts of a circle that caps cover, as in CircleCovers. The plane of a cap of cosine c
-/// meets the circle where u cos a + v sin a = (c - height along)/radius; (x, y) is (u, v) as a
-/// unit vector.
+/// Finds the parts of a circle that caps cover, as in CircleCovers. A cap of cosine c meets the
+/// circle where u cos a + v sin a = (c - height along)/radius; (x, y) is (u, v)/|(u, v)|.
 /// @return whether one surely covers all of it
 MOLSURF_KERNEL bool intersectCircle(const Circle& circle, const CapPointers& caps, int count,
                                     double* __restrict x, double* __restrict y,
@@ -95,10 +94,9 @@ namespace
 /// Whether caps surely cover all of a circle, as floats tell: each of 16 equal parts of it lies in
 /// one of them. Most circles are covered well enough for that.
 ///
-/// With the ends p and q of a part, a point of it is a p + b q, where a and b are not negative
-/// and 1 <= a + b <= 1/cos(pi/16). So u x + v y is at least the smaller of its values at p and
-/// q, or 1/cos(pi/16) times that if it is negative. Of eight parts p and q are given, the others
-/// are opposite.
+/// With the ends p and q of a part, a point of it is a p + b q, where a and b are not negative and
+/// 1 <= a + b <= 1/cos(pi/16). So u x + v y is at least the smaller of its values at p and q, or
+/// 1/cos(pi/16) times that if it is negative. Each lane does a part and its opposite.
 /// @param[out] f  of the caps looked at; all of them if the result is false
 MOLSURF_KERNEL bool isSurelyCovered(const Circle& circle, const CapLists& caps, RoundedCovers& f)
 {

@@ -170,7 +170,6 @@ void addCutters(const ProbeCorners& corners, std::size_t c, double probe, const 
         const double h = length / (2.0 * probe);
         if (!(length > 0.0) || !(h < 1.0)) return;
         const Vec3d axis = way / length;
-        // The angle between the axes is above the sum of the half angles: they do not meet.
         if (axis.dot(cone.axis) < h * cone.cosine - std::sqrt(1.0 - h * h) * sine - slack) return;
         if (isBehindPartner(corners[c], corners[o], std::uint32_t(o))) return;
         constexpr double same = 1e-13;
@@ -310,7 +309,6 @@ struct Parts {
     bool fits = true;
 };
 
-/// Adds the contact faces: patches scaled from the grown radius to that of the ball.
 void addContacts(const BallBoundary& boundary, const BoundaryMeasure& measure, double probe,
                  Parts& all, ExcludedMeasure& out)
 {

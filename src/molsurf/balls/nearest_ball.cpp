@@ -30,7 +30,6 @@ struct Points {
     std::int32_t ball[floatLanes];
 };
 
-/// Gives eight points the nearest of the candidates, of equally near ones that of the lowest index.
 MOLSURF_KERNEL void lookAt(const std::vector<Candidate>& candidates, Points& points)
 {
     const Floats x = load(points.x[0]), y = load(points.x[1]), z = load(points.x[2]);

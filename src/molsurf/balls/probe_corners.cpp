@@ -64,7 +64,6 @@ ProbeCorners::ProbeCorners(const BallBoundary& boundary, const BoundaryMeasure& 
     }
 }
 
-/// Makes the corners, and finds by their names which arcs end at each of them.
 void ProbeCorners::findEnds(const BallBoundary& boundary, const BoundaryMeasure& measure)
 {
     // An arc with a later ball at an end has put the corner there into the list.
@@ -114,8 +113,7 @@ void ProbeCorners::findEnds(const BallBoundary& boundary, const BoundaryMeasure&
     }
 }
 
-/// Sets the partners of corners: the last end of each arc of a circle and the first end of
-/// the next.
+/// Sets the partners of corners: the last end of each arc of a circle and the next one's first.
 void ProbeCorners::findPartners(const BallBoundary& boundary, const BoundaryMeasure& measure)
 {
     // The arcs of a circle follow each other, in their order about its axis.

@@ -37,8 +37,8 @@ struct Rim {
     }
 };
 
-/// Adds the free parts of the rim of a cap, by a sweep over the angles that other caps cover, in
-/// the order of their begins in [0, 2 pi). It begins 2 pi before the last of their ends.
+/// Adds the free parts of the rim of a cap, by a sweep over the angles that other caps cover, by
+/// their begins in [0, 2 pi). It begins 2 pi before the last of their ends.
 void addRimArcs(const std::vector<SphereCap>& caps, int own, RegionScratch& scratch,
                 std::vector<RimArc>& arcs)
 {

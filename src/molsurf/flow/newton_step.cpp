@@ -267,7 +267,6 @@ void NewtonSteps::sweep(const LeafTable& table, System& system, const Progress& 
     }
 }
 
-/// Makes the equations of the voxels near the interface, and sums over it.
 InterfaceSums NewtonSteps::assemble(const NarrowBand& band, const Region& region, System& system,
                                     const Progress& progress) const
 {

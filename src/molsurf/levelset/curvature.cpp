@@ -14,7 +14,6 @@ namespace
 
 constexpr float tiny = 1e-12f; // keeps divisions finite where the gradient vanishes
 
-/// curvature() for the rows of 8 voxels with an active one.
 MOLSURF_KERNEL void curvatureRows(const float* __restrict block, const LeafMask& active,
                                   float inverse, float* __restrict nx, float* __restrict ny,
                                   float* __restrict nz, float* __restrict slope,

@@ -21,7 +21,6 @@ namespace
 {
 
 /// Dilation of a set of leaves: the origins of all within `reach` leaves of some, along each axis.
-/// A table whose voxels are leaves is dilated for it.
 /// @param[in] places  of the leaves, counted in leaves; any order, with repeats
 std::vector<Coord> leavesWithin(std::vector<Coord> places, int reach, const Progress& progress)
 {

@@ -100,7 +100,6 @@ struct Halves {
     }
 };
 
-/// boundTerms() eight terms at a time; the lists are padded.
 MOLSURF_KERNEL void boundBy8(const GaussianTerms& t, GaussianBounds& bounds)
 {
     Floats top = splat(GaussianTerms::noExponent), floor[octants];
@@ -159,9 +158,7 @@ namespace
 {
 
 /// The exponentials of a term at the 8 coordinates along x, y and z: the term at a voxel is e^top
-/// times the product of three. The exponent at the nearest y and z is in the factor of x, so that
-/// the other two are at most 1.
-/// @param[out] out  24 numbers
+/// times the product of three, of which those of y and z are at most 1.
 MOLSURF_INLINE void tabulate(const GaussianTerms& t, std::size_t i, float top, float* out)
 {
     const Floats voxel = __builtin_convertvector(laneNumbers(), Floats);
@@ -176,10 +173,9 @@ MOLSURF_INLINE void tabulate(const GaussianTerms& t, std::size_t i, float top, f
     store(out + 16, fastExp(decay * (nearZ2 - square(voxel - t.z[i]))));
 }
 
-/// Tabulates the terms that count in some octant, one after the other, and lists for each octant
-/// the places of its terms in this table. Without branches a term is written to all eight lists,
-/// and counted where it belongs.
-/// @param[in] stride  from list to list
+/// Tabulates the terms that count in some octant, and lists for each octant the places of its terms
+/// in this table. Without branches: each is written to all eight lists, `stride` apart, and counted
+/// where it belongs.
 MOLSURF_KERNEL void listTerms(const GaussianTerms& t, const GaussianBounds& bounds,
                               std::size_t stride, GaussianTables& tables)
 {

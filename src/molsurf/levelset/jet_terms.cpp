@@ -28,7 +28,6 @@ struct JetColumns {
     std::size_t count;
 };
 
-/// Sums the terms at a point, four at a time.
 MOLSURF_KERNEL void sumJetTerms(const JetColumns& list, double x, double y, double z,
                                 JetSums& __restrict out)
 {

@@ -80,9 +80,9 @@ void LeafDistances::compute(const std::int32_t* index, const std::uint16_t* voxe
 }
 
 /// One round for the voxels that wait: a Newton step brings their points back onto the spline's
-/// zero set, and leaves an error of fourth order in the distance moved. A point has to come nearer
-/// to its voxel and to the normal through it. Then its distance is taken if it is settled, or it
-/// waits for another round, up to mostRounds. For all others seekFoot() starts anew from the seed.
+/// zero set, with an error of fourth order in the distance moved. A point that comes nearer to its
+/// voxel and its normal gives the distance, if it is settled, or waits for another round. For all
+/// others seekFoot() starts anew from the seed.
 void LeafDistances::polish(float* out)
 {
     FootPoints feet;

@@ -243,10 +243,9 @@ struct PartsAt {
 };
 
 /// Finds a limit for the points of a ball: no part whose key is above it is the nearest to any. If
-/// the centre's nearest part is at r, theirs are at r + radius or less, and so at r + 2 radius or
-/// less from the centre. The factor and 1e-5 Å are for rounding.
-/// @param[in]  c,radius  of the ball
-/// @param[out] keys      of all parts
+/// the centre's nearest part is at r, theirs are at most r + 2 radius from the centre; the factor
+/// and 1e-5 Å are for rounding.
+/// @param[in] c,radius  of the ball
 MOLSURF_INLINE float limitAt(const PartsAt& parts, const Vec3f& c, float radius, float inside,
                              const Keys& keys)
 {
@@ -264,9 +263,8 @@ MOLSURF_KERNEL float limitOf(const VoxelCube& cube, const PartsAt& parts, float 
     return limitAt(parts, cube.centre(), cube.radius(), inside, keys);
 }
 
-/// Takes over the parts with keys below a limit. Without a branch each index is written, and
-/// counted if it belongs to the list.
-/// @param[in] numbers  how many numbers a part of this kind has
+/// Takes the parts with keys below a limit. Without a branch: each index is written, and counted if
+/// it belongs to the list.
 MOLSURF_KERNEL void takeParts(const PartList& from, const float* keys, float limit, int numbers,
                               std::vector<std::int32_t>& list, PartList& to)
 {
@@ -312,8 +310,7 @@ struct Cone {
 };
 
 /// The caps that may hold a direction of a cone.
-/// @param      above  memory for a number a cap
-/// @param[out] out    their indices; room for all
+/// @param[out] out  their indices; room for all
 /// @return their number; -1 if one holds all of the cone
 MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapLists& caps, CapRange range,
                              float* __restrict above, std::int32_t* out)

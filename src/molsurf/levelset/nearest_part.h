@@ -17,11 +17,11 @@
 namespace molsurf
 {
 
-/// Numbers of a part. Those behind the place bound the region in which it can be the nearest: at a
-/// point of the boundary the way to a voxel inside that is nearest to it is a sum, with weights of
-/// 0 or more, of the ways to the centres of the balls that meet there. So of a corner these voxels
-/// lie between three planes, of an arc between two cones about its axis and between its ends, and
-/// of a patch in a cone about its free part.
+/// Numbers of a part. Those behind the place bound the region in which it can be the nearest. Let a
+/// voxel inside have its nearest point of the boundary where some balls meet: the way from there to
+/// it is a sum of the ways to their centres, with weights of 0 or more. So of a corner these voxels
+/// lie between three planes, of a patch in a cone about its free part. Those of an arc lie between
+/// two cones about its axis and between its ends.
 enum PartNumber {
     PartX, ///< the corner, or the centre of the sphere or circle
     PartY,

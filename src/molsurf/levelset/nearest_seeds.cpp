@@ -52,11 +52,10 @@ LeafMask touching(const Coord& way)
     return out;
 }
 
-/// Flood fill: finds which leaves of a domain that a level set lacks lie inside. No interface
-/// crosses them, so the majority of the touching voxels of the level set's leaves decides.
-/// Breadth-first search carries that to leaves farther away.
+/// Flood fill: finds the leaves inside, among those of a domain that a level set lacks. No
+/// interface crosses them, so the majority of the touching voxels of the level set's
+/// leaves decides.
 /// @param[in] inner  the voxels inside, by leaf of `table`
-/// @return whether each leaf of the domain is such a leaf
 std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
                               const std::vector<LeafMask>& inner)
 {

@@ -61,9 +61,8 @@ struct FreeCone {
     double cosine = 1.0; // of half its angle
 };
 
-/// The cosine between a unit vector and the direction of the point of an arc farthest from it, as
-/// seen from the centre of a sphere of the arc: the least of base + a cos t + b sin t for
-/// |t| <= arc.half, divided by the sphere's radius.
+/// The least cosine between a unit vector and the directions from the centre of a sphere to an arc
+/// on it: the least of base + a cos t + b sin t for |t| <= arc.half, over the sphere's radius.
 double leastCosine(const Arc& arc, const Vec3d& centre, double radius, const Vec3d& axis)
 {
     const double base = axis.dot(arc.centre - centre);
@@ -74,10 +73,9 @@ double leastCosine(const Arc& arc, const Vec3d& centre, double radius, const Vec
     return (base - (opposite ? most : std::abs(b) * std::sin(arc.half) - a * cosine)) / radius;
 }
 
-/// The cones about the free parts of all patches. A patch's axis is the sum of the directions to
-/// its arcs, weighted by length, and its cone holds all arcs. So the rest of the sphere is covered
-/// or free as a whole, which the direction opposite to the axis decides; where it is free, the cone
-/// is the whole sphere.
+/// The cones about the free parts of all patches. A cone holds all arcs of its patch, so the rest
+/// of the sphere is covered or free as a whole: the direction opposite to the axis decides. Where
+/// it is free, the cone is the whole sphere.
 std::vector<FreeCone> freeCones(const BallBoundary& boundary)
 {
     constexpr double rounding = 1e-6;
@@ -118,8 +116,7 @@ std::vector<FreeCone> freeCones(const BallBoundary& boundary)
     return cones;
 }
 
-/// Sets the numbers and the region of patch i: the box about a ball about the part of the cone down
-/// to the depth `inside`.
+/// Sets the numbers of patch i and its region: about the part of the cone down to depth `inside`.
 void setPatch(const BallBoundary& boundary, const FreeCone& cone, double inside, std::size_t i,
               PartTable& table)
 {
@@ -143,8 +140,7 @@ void setPatch(const BallBoundary& boundary, const FreeCone& cone, double inside,
     table.regions[i] = Box::about(patch.centre + centre * cone.axis, around);
 }
 
-/// Sets the numbers and the region of arc i. A full circle has an EndCosine of -2, which every
-/// place exceeds.
+/// Sets the numbers and the region of arc i; every place exceeds the EndCosine of a full circle.
 void setArc(const BallBoundary& boundary, double inside, std::size_t i, PartTable& table)
 {
     const Arc& arc = boundary.arcs[i];
@@ -177,10 +173,8 @@ void setArc(const BallBoundary& boundary, double inside, std::size_t i, PartTabl
         Box::about(ball.centre, ball.radius + 2.0 * std::sin(0.5 * arc.half) * arc.radius);
 }
 
-/// Sets the numbers and the region of corner i: the planes of its numbers pass through it and
-/// two of the three centres. Normals are 0, and exclude nothing, where it is nearly in one plane
-/// with them.
-/// @param[in] part  its index among all parts
+/// Sets the numbers and the region of corner i. Its planes pass through it and two of the three
+/// centres; normals are 0, and exclude nothing, where all four are nearly in one plane.
 void setCorner(const BallBoundary& boundary, double inside, std::int32_t part, std::size_t i,
                PartTable& table)
 {

@@ -19,7 +19,6 @@ namespace
 /// the nearest voxel 0.5 at most, by central differences.
 constexpr float middleSlope = 0.7f;
 
-/// S at a voxel of leaf n or of one next to it.
 float valueAt(const SparseField& S, std::size_t n, const Coord& voxel)
 {
     const Coord at = voxel - S.table.origin(n);

@@ -99,8 +99,7 @@ void addKinksBetweenLeaves(const PartTables& tables, const LeafTable& table,
                            const LeafArray<std::int32_t>& part, double voxelSize, std::size_t n,
                            LeafMask& kinks)
 {
-    // Of the leaves next along x, y and z among the 27 neighbours.
-    constexpr int strides[3] = {64, 8, 1}, neighbours[3] = {22, 16, 14};
+    constexpr int strides[3] = {64, 8, 1}, neighbours[3] = {22, 16, 14}; // of 27: the next
     const std::int32_t* own = part.leaf(n);
     for (int axis = 0; axis < 3; ++axis) {
         const std::int32_t m = table.neighbours(n)[std::size_t(neighbours[axis])];
@@ -176,7 +175,6 @@ public:
         return all;
     }
 
-    /// The distances of a leaf, by eight cubes of 4^3 voxels.
     /// @param[out] phi    of the leaf, cut off at the limits of the band [Å]
     /// @param[out] part   index of the nearest part: patches, then arcs, then corners
     /// @param[out] kinks  voxels with a kink between them and the next of the leaf along an axis
@@ -236,7 +234,6 @@ private:
     const PartTables tables_;
 };
 
-/// distanceToUnion(), whose memory is free when this returns.
 DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
                     const Progress& progress, const openvdb::CoordBBox& box)
 {

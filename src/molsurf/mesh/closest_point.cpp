@@ -30,8 +30,7 @@ struct Search {
     float radius(double distance) const { return float(distance * (1.0 + 1e-6) + margin); }
 };
 
-/// Called by Embree for each triangle near the point.
-/// @return whether the radius of the query has shrunk
+/// Called by Embree for each triangle near the point; returns whether the radius has shrunk.
 bool visit(RTCPointQueryFunctionArguments* arguments)
 {
     Search& search = *static_cast<Search*>(arguments->userPtr);

@@ -463,7 +463,6 @@ bool Remesher::fits(Id h) const
     return !isTooShort(h) && length(h) < longestMended * sizeOf(h);
 }
 
-/// Flips an edge if the least angle of its two triangles grows.
 bool Remesher::tryFlip(Id h)
 {
     if (!edges_.canFlip(h)) return false;
@@ -478,7 +477,6 @@ bool Remesher::tryFlip(Id h)
     return true;
 }
 
-/// Collapses an edge, to the better end, if the least angle about it grows.
 bool Remesher::tryCollapse(Id h)
 {
     if (!edges_.canCollapse(h)) return false;

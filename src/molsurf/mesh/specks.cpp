@@ -56,9 +56,8 @@ double coverOf(const Mesh& mesh, const Piece& piece, const Vec3d& x)
     return std::abs(sum) / (4.0 * M_PI);
 }
 
-/// Changes the signs of the voxels that a piece encloses. Each connected set of voxels of one sign
-/// that begins beside its vertices, and stays in its box, is tried: the piece has to wind about one
-/// of them, since sets of other pieces may be as near. If none passes, the nearest set changes.
+/// Changes the signs of the voxels that a piece encloses: of the connected sets of one sign beside
+/// its vertices those that it winds about, or the nearest. Sets of other pieces may be as near.
 void fill(const Mesh& mesh, const Piece& piece, openvdb::FloatGrid& surface)
 {
     const double voxel = surface.voxelSize()[0];

@@ -147,8 +147,7 @@ MOLSURF_KERNEL std::size_t firstDoubtful(const Fans& fans, std::size_t v)
 }
 
 /// Checks a fan by walking about its vertex from triangle to triangle; if that is no one turn, by
-/// counting the triangles that run out and in along each edge. No triangles count as manifold, more
-/// than 64 as not.
+/// counting the triangles that run out and in along each edge.
 /// @param[in] k  number of the fan
 Topology checkFan(const Fans& fans, std::size_t k)
 {
@@ -181,8 +180,7 @@ Topology checkFan(const Fans& fans, std::size_t k)
 }
 
 /// Calls take(place, out, in) for each corner of a triangle whose vertex is one of `count` from
-/// `first` on; the place is the vertex's number among them. (Unsigned: a vertex before `first` has
-/// a large number.)
+/// `first` on; the place is the vertex's number among them.
 template<typename F>
 void visitCorners(const std::array<std::uint32_t, 3>& t, std::uint32_t first, std::uint32_t count,
                   const F& take)

@@ -56,7 +56,6 @@ double passingRadius(const BasinMeasure::Mouth& mouth, const Clearance& clearanc
 }
 
 /// The report of a basin by its own measures.
-/// @param[in] peak        the largest clearance in it [Å]
 /// @param[in] leastMouth  mouths that are narrower at their widest do not count [Å]
 PocketReport pocketOf(const BasinMeasure& basin, double peak, double leastMouth,
                       const OuterDepth& outer,

@@ -242,9 +242,8 @@ Way smoothed(const std::vector<Vec3d>& points)
     return out;
 }
 
-/// The sections, with a point of the way as their origin: the one with the most room, where the way
-/// meets a section more than once. They are at right angles to the axis, at even heights, if the
-/// way follows it everywhere; else to the way, at even distances along it.
+/// The sections, each with the point of the way in it that has the most room. They are at right
+/// angles to the axis, at even heights, if the way follows it everywhere; else to the way.
 std::vector<Plane> sectionsOf(const std::vector<Vec3d>& points, const Ends& ends,
                               const Clearance& clearance)
 {

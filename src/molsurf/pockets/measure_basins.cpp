@@ -65,7 +65,6 @@ double shareAbove(const std::array<const CellCorner*, 4>& c, int above)
     if (above == 4) return 1.0;
     if (above == 1) return cut(0, 1) * cut(0, 2) * cut(0, 3);
     if (above == 3) return 1.0 - (1.0 - cut(0, 3)) * (1.0 - cut(1, 3)) * (1.0 - cut(2, 3));
-    // A wedge, as three tetrahedra.
     const double s = cut(0, 2), t = cut(0, 3), u = cut(1, 2), w = cut(1, 3);
     return s * t + s * (1.0 - t) * w + (1.0 - s) * u * w;
 }

@@ -25,8 +25,7 @@ constexpr int directions[16][2] = {{1, 0},  {2, 1},  {1, 1},  {1, 2},   {0, 1}, 
                                    {0, -1}, {1, -2}, {1, -1}, {2, -1}};
 
 /// Lowers the room of points begin to end of a row to the distance to a ball, where that is less.
-/// @param[in] start  of the row [Å]
-/// @param[in] at     the ball's place along the row, its squared distance from the row, its radius
+/// @param[in] at  the ball's place along the row, its squared distance from the row, its radius
 void lower(float* row, int begin, int end, double start, double spacing, const Vec3d& at)
 {
     const float x0 = float(start - at[0]), h = float(spacing), c = float(at[1]), r = float(at[2]);
@@ -66,7 +65,6 @@ PoreGrid::PoreGrid(const std::vector<Ball>& balls, const Extent& extent, const P
     });
 }
 
-/// The room in a layer, ball by ball and row by row.
 /// @param[in] sorted  balls in the lattice's frame, ascending along the axis
 void PoreGrid::fillLayer(int layer, const std::vector<Ball>& sorted, double largest)
 {

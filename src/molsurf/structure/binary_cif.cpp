@@ -252,7 +252,7 @@ std::vector<std::int64_t> integersOf(const json& bytes, const json& encodings, A
     return std::move(values.integers);
 }
 
-/// Texts by an index each: they lie in one text, and offsets tell where each begins and ends.
+/// Texts by an index each: they lie one after the other in one text, between offsets.
 void decodeStringArray(const json& encoding, Values& values, Allowance& allowance)
 {
     if (values.kind != Values::Kind::Bytes) damaged("StringArray: expected bytes");

@@ -44,7 +44,6 @@ Bump bumpAt(const Gap& gap, bool solid, double reach, double rate,
     const Vec3d way = reach * gap.axes[solid ? 0 : 1];
     if (thin > 0.0) {
         for (const double sign : {-1.0, 1.0}) {
-            // At this distance a bump has e^(-rate reach^2) of its amplitude.
             const double lacks = least - side * psi(gap.place + sign * way);
             amplitude = std::max(amplitude, lacks * std::exp(rate * reach * reach));
         }
