@@ -125,7 +125,7 @@ struct BallBoundary {
 /// @throws Error(ErrorKind::Check) if the parts do not fit together
 BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress);
 
-/// Whether another ball covers the point of a sphere in a direction, as exactly as floats tell.
+/// Whether another ball covers the point of a sphere in a direction, with the rounding of floats.
 inline bool isCovered(const BallBoundary& boundary, const Patch& patch,
                       const openvdb::Vec3d& direction)
 {

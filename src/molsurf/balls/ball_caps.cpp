@@ -128,7 +128,7 @@ enum : std::int32_t {
     unsure = around + 1
 };
 
-/// The same as relate() for many balls, where doubles tell.
+/// relate() for many balls in doubles: `unsure` where rounding may decide.
 /// @param[in,out] x,y,z  ways to their centres; made unit vectors
 MOLSURF_KERNEL void relateAll(double r, std::size_t count, const double* __restrict radius,
                               double* __restrict x, double* __restrict y, double* __restrict z,

@@ -91,8 +91,8 @@ void RoundedCovers::resize(std::size_t count)
 namespace
 {
 
-/// Whether caps surely cover all of a circle, as floats tell: each of 16 equal parts of it lies in
-/// one of them. Most circles are covered well enough for that.
+/// Whether caps surely cover all of a circle, in floats: each of 16 equal parts of it lies in one
+/// of them. Most circles are covered well enough for that.
 ///
 /// With the ends p and q of a part, a point of it is a p + b q, where a and b are not negative and
 /// 1 <= a + b <= 1/cos(pi/16). So u x + v y is at least the smaller of its values at p and q, or
@@ -138,8 +138,8 @@ MOLSURF_KERNEL bool isSurelyCovered(const Circle& circle, const CapLists& caps, 
     return false;
 }
 
-/// Finds the covers of a circle that do not surely lie within another one, as floats tell: only
-/// these can be beside a gap.
+/// Finds the covers of a circle that do not surely lie within another one, in floats: only these
+/// can be beside a gap.
 /// @param[in,out] f     from isSurelyCovered()
 /// @param[out]    kept  the places of their caps; room for all
 /// @return their number

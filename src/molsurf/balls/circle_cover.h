@@ -11,7 +11,7 @@
 namespace molsurf
 {
 
-/// Thrown where not even quadruple precision tells how balls cover a circle.
+/// Thrown where not even quadruple precision decides how balls cover a circle.
 struct SpecialPosition {
 };
 

@@ -18,8 +18,8 @@ namespace molsurf
 using openvdb::Vec3d;
 
 /// A convex polyhedron about the centre of a ball, cut out by planes, with three of them at each
-/// vertex. It never loses a point that belongs to it by more than `tolerance`, so what it tells to
-/// be beyond it is.
+/// vertex. It never loses a point that belongs to it by more than `tolerance`, so a ball that it
+/// finds beyond it is.
 class PowerCell
 {
 public:

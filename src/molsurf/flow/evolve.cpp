@@ -106,8 +106,8 @@ struct Rest {
     double rms, tail;
 };
 
-/// How many steps as long as the last one are allowed for in the options' tolerance: one step alone
-/// does not tell how fast they shrink, and fronts go on for some steps.
+/// How many steps as long as the last one are allowed for in the options' tolerance: from one step
+/// it is not known how fast they shrink, and fronts go on for some steps.
 double stepsToRest(const EvolveOptions& options, const EvolutionReport& report)
 {
     if (report.steps <= 1) return 4.0;

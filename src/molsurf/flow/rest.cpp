@@ -19,7 +19,7 @@ namespace
 
 constexpr double restReach = 0.75; // [Å]
 
-/// How far from its foot a voxel's derivatives tell the level [Å]: up to there all stencils lie in
+/// How far from its foot a voxel's derivatives give the level [Å]: up to there all stencils lie in
 /// the band. The change to the flat level beyond shows in the curvature of fine voxels if it is
 /// nearer, and in the energy of coarse ones if it is farther.
 /// measured: final_energy of 1CRN, 1A8O, 4HHB, 4AT1, 1EHZ, lambda 0.003 to 0.02, 0.5 and 0.25 Å,
@@ -92,7 +92,7 @@ MOLSURF_KERNEL void levelRows(const float* __restrict block, const float* __rest
                 level = flat + fastLog(clamped(bottom * rootAtFoot(slope, kappa, m, weights), least,
                                                most));
             }
-            // A voxel further the level is that of a flat interface.
+            // One voxel farther than `near` the level is that of a flat interface.
             const float off = clamped((std::abs(distance) - near) * inverse, 0.0f, 1.0f);
             const float mixed = level + off * off * (3.0f - 2.0f * off) * (flat - level);
             // At the rim stencils see no neighbours: no level there puts a voxel on the other side.

@@ -116,7 +116,7 @@ std::vector<FreeCone> freeCones(const BallBoundary& boundary)
     return cones;
 }
 
-/// Sets the numbers of patch i and its region: about the part of the cone down to depth `inside`.
+/// Sets the numbers of patch i and its region: the part of its cone down to depth `inside`.
 void setPatch(const BallBoundary& boundary, const FreeCone& cone, double inside, std::size_t i,
               PartTable& table)
 {
@@ -128,8 +128,8 @@ void setPatch(const BallBoundary& boundary, const FreeCone& cone, double inside,
     table.set(i, AxisX, cone.axis);
     table.set(i, FreeCosine, cone.cosine);
     table.set(i, FreeSine, sineOf(cone.cosine));
-    // The ball's radius is the largest distance from its centre to the outer and the inner rim of
-    // this shell, and to the middles of its caps.
+    // That part is a shell: the ball's radius is the largest distance from its centre to the outer
+    // and the inner rim, and to the middles of its caps.
     const double r = patch.radius, deep = std::max(r - inside, 0.0);
     const double centre = cone.cosine > 0.0 ? 0.5 * (r + deep * cone.cosine) : 0.0;
     const auto rim = [&](double radius) {

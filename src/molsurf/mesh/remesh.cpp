@@ -210,7 +210,7 @@ float Remesher::worstAround(std::uint32_t v) const
     return worst;
 }
 
-/// Points moved onto S = 0, those of a leaf together; a residual tells whether one arrived.
+/// Points moved onto S = 0, those of a leaf together; one that arrived has a small residual.
 std::vector<SurfacePoint> Remesher::project(const std::vector<openvdb::Vec3s>& starts) const
 {
     const std::size_t count = starts.size();

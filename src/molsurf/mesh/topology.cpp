@@ -201,7 +201,7 @@ struct Verdict {
     }
 };
 
-/// @param[in] wanted  tells of a vertex whether to check it
+/// @param[in] wanted  whether to check a vertex, by its index
 template<typename F>
 Topology checkVertices(const Mesh& mesh, const F& wanted, const Progress& progress)
 {

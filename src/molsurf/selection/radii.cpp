@@ -257,7 +257,7 @@ void addRule(RadiiSet& set, const Fields& fields, const std::string& place)
         set.atoms[{std::string(fields[0]), std::string(fields[1])}] = radius;
         return;
     }
-    // A radius of 0 is a rule too; find() tells it from "none" by the sign.
+    // A radius of 0 is a rule too: -1, since 0 means that there is none.
     const double stored = radius > 0 ? radius : -1.0;
     const std::uint8_t element = elementNumber(std::string(fields[0]));
     if (fields[0] == "*") {

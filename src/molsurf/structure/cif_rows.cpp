@@ -173,7 +173,7 @@ private:
         return std::size_t(found - tags.begin());
     }
 
-    /// Numbers that ascend tell residues that do not come again.
+    /// Allows a cut where a residue's number is above all before it in the chain, so it is new.
     void takeNumber(const Fields& row)
     {
         before_ = last_;
@@ -196,6 +196,8 @@ class Pieces
 public:
     explicit Pieces(std::size_t rowsOfPiece) : enough_(rowsOfPiece) {}
 
+    /// Takes the row at a byte, which begins a piece if it may and the last one has enough rows. If
+    /// a residue comes again, the cuts since then go.
     void take(std::size_t at, const Cutter& row)
     {
         if (row.endsSpan()) {

@@ -110,7 +110,7 @@ void addBall(AtomTree& tree, const Identity& id, const openvdb::Vec3d& position,
     tree.add(atom);
 }
 
-/// The structure, whose atoms all have radii. What names tell of elements is not worth a line.
+/// The structure, whose atoms all have radii: that elements were guessed does not matter then.
 Structure finished(AtomTree& tree)
 {
     Structure out = tree.finish();

@@ -124,8 +124,8 @@ private:
 
 /// Unpacks: an atom anywhere in the box, then a run of atoms near to the one before. The first of
 /// a run changes places with the atom before it, so that of a water the oxygen comes in the
-/// middle. A run has the length of the last one, unless a set bit and a new length in
-/// five bits come, which also tells whether the span of displacements shrinks or grows.
+/// middle. A run has the length of the last one, unless a set bit and a new length in five bits
+/// come, which also encode whether the span of displacements shrinks or grows.
 ///
 /// @return fewer than `count` if the data are damaged
 std::vector<Integers> unpack(Bits& bits, std::size_t count, const Box& box, int span)
@@ -218,7 +218,7 @@ std::uint64_t XtcFile::startFrame(std::size_t frame)
     length |= word();
     if (!file_) return 0;
     const std::uint64_t content = std::uint64_t(file_.tellg());
-    // An atom takes a bit of its coordinates and one that tells whether a run follows, at least.
+    // An atom takes two bits at least: one of its coordinates, and whether a run has a new length.
     expect(count / 4 <= length, "coordinates of " + std::to_string(count) + " atoms, got " +
                                     std::to_string(length) + " bytes");
     return length > size_ ? 0 : content + (length + 3) / 4 * 4;

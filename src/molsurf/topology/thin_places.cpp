@@ -103,8 +103,7 @@ double unitAt(double depth)
 Rim rimOf(const std::vector<Vec3d>& y)
 {
     if (y.size() == 2) return {0.5 * (y[0] + y[1]), 0.5 * (y[1] - y[0]).length(), 0.5};
-    // The circumcentre by barycentric weights: that of a corner is a^2 (b^2 + c^2 - a^2), a being
-    // the side opposite to it.
+    // The circumcentre by barycentric weights, a^2 (b^2 + c^2 - a^2) at the corner opposite to a.
     const double a2 = (y[1] - y[2]).lengthSqr(), b2 = (y[2] - y[0]).lengthSqr(),
                  c2 = (y[0] - y[1]).lengthSqr();
     Vec3d w(a2 * (b2 + c2 - a2), b2 * (c2 + a2 - b2), c2 * (a2 + b2 - c2));

@@ -145,7 +145,7 @@ void addBump(const Vec3d& place, double amplitude, double radius, SparseField& S
 
 int wallReach(double voxelSize)
 {
-    constexpr double told = 5.0; // how far from a wall voxels tell of it [voxel]
+    constexpr double told = 5.0; // how far from a wall the voxels lie that lead to it [voxel]
     return int(std::ceil(bumpRadius + openRadiusOf(voxelSize) + told));
 }
 
