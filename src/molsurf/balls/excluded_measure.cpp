@@ -197,8 +197,8 @@ void findTouched(const ProbeCorners& corners, std::size_t c, CornerScratch& s)
     if (s.touched.size() > most) s.touched.resize(3);
 }
 
-/// Finds the areas of the region that belong to each ball that the probe touches: those with the
-/// least |x - x_i|^2 - r_i^2, the others being in caps.
+/// Divides the region by the power diagram of the balls that the probe touches: a ball gets the
+/// area with the least |x - x_i|^2 - r_i^2, the rest being in caps of the other balls.
 void shareRegion(const BallBoundary& boundary, const Vec3d& place, double probe,
                  const Vec3d& inside, CornerScratch& s, ConcavePart& part)
 {

@@ -55,6 +55,7 @@ ProbeCorners::ProbeCorners(const BallBoundary& boundary, const BoundaryMeasure& 
         });
         if (any) out.push_back(c);
     };
+    // Corners close to others get their places from quadruple precision.
     for (const std::size_t c : parallelCollect<std::size_t>(corners_.size(), progress, closeOnes)) {
         ProbeCorner& corner = corners_[c];
         const QuadVector place = exactPlace(boundary, corner.name);

@@ -128,7 +128,7 @@ void LeafDistances::polish(float* out)
                 const Vec3f Ad(feet.A[0][l] * d.x() + feet.A[3][l] * d.y() + feet.A[5][l] * d.z(),
                                feet.A[3][l] * d.x() + feet.A[1][l] * d.y() + feet.A[4][l] * d.z(),
                                feet.A[5][l] * d.x() + feet.A[4][l] * d.y() + feet.A[2][l] * d.z());
-                w.y = lane(feet.y, l) + d - 0.5f * d.dot(Ad) * lane(feet.n, l);
+                w.y = lane(feet.y, l) + d - 0.5f * d.dot(Ad) * lane(feet.n, l); // second order
                 wait_[again++] = w;
                 continue;
             }

@@ -53,8 +53,7 @@ LeafMask touching(const Coord& way)
 }
 
 /// Flood fill: finds the leaves inside, among those of a domain that a level set lacks. No
-/// interface crosses them, so the majority of the touching voxels of the level set's
-/// leaves decides.
+/// interface crosses them: the majority of the touching voxels of the level set's leaves decides.
 /// @param[in] inner  the voxels inside, by leaf of `table`
 std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
                               const std::vector<LeafMask>& inner)

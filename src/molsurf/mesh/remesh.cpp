@@ -260,7 +260,7 @@ void Remesher::set(std::uint32_t v, const SurfacePoint& p)
     residuals_[v] = p.residual;
 }
 
-/// The target at each vertex, which grows by 0.3 Å an Å at most.
+/// The target at each vertex, made to grow by 0.3 Å an Å at most by four sweeps along the edges.
 void Remesher::findSizes()
 {
     const std::size_t count = mesh_.positions.size();

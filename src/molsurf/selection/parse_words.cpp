@@ -548,7 +548,7 @@ private:
     }
 
     /// The selection behind a prefix: all up to the end or a bracket.
-    /// @param[in] begin  of the prefix, if other programs end what it is for at `and` and `or`
+    /// @param[in] begin  of a prefix that other programs end at `and` and `or`; else none
     SubTree greedy(std::size_t begin)
     {
         const std::string prefix(begin == none ? string_view() : in_.from(begin));
