@@ -6,11 +6,13 @@
 /// alone; a damaged text is an error.
 
 #include <molsurf/molsurf.h>
+#include <molsurf/selection/point_charges.h>
 
 #include <openvdb/io/Stream.h>
 
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -71,6 +73,12 @@ private:
     void add(const std::optional<T>& value)
     {
         add(value.has_value());
+        if (value) add(*value);
+    }
+    template<typename T>
+    void add(const std::shared_ptr<const T>& value)
+    {
+        add(bool(value));
         if (value) add(*value);
     }
     template<typename A, typename B>
@@ -152,6 +160,16 @@ private:
         value.reset();
         if (there) get(value.emplace());
     }
+    template<typename T>
+    void get(std::shared_ptr<const T>& value)
+    {
+        bool there = false;
+        get(there);
+        if (!there) return value.reset();
+        T read;
+        get(read);
+        value = std::make_shared<const T>(std::move(read));
+    }
     template<typename A, typename B>
     void get(std::pair<A, B>& both)
     {
@@ -200,9 +218,11 @@ MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.i
                 v.hetatm)
 MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
 MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
+MOLSURF_MEMBERS(PointCharge, v.position, v.charge, v.radius, v.atom, v.residue, v.chain, v.number)
+MOLSURF_MEMBERS(PointCharges, v.atoms)
 MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.placement,
                 v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.pocketAt, v.pore, v.coloring,
-                v.radii, v.model, v.membrane, v.warnings)
+                v.radii, v.model, v.membrane, v.charges, v.warnings)
 MOLSURF_MEMBERS(BallSet::PoreWay, v.ends, v.axis)
 MOLSURF_MEMBERS(Attribute<float>, v.name, v.values, v.names)
 MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values, v.names)

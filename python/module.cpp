@@ -474,9 +474,9 @@ using Words = std::vector<std::pair<std::string, std::string>>;
 using Beside = std::tuple<std::string, std::vector<std::pair<std::string, const MadeSurface*>>,
                           std::vector<std::pair<std::string, const Molecule*>>>;
 
-/// Writes a picture or page.
-void savePicture(const MadeSurface& surface, const std::string& path, bool replace,
-                 const Words& settings, const Beside& beside)
+/// Writes a file, with the options of files and pictures that are given.
+void save(const MadeSurface& surface, const std::string& path, bool replace, const Words& settings,
+          const Beside& beside)
 {
     nb::gil_scoped_release free;
     const auto& [name, panels, show] = beside;
@@ -485,28 +485,7 @@ void savePicture(const MadeSurface& surface, const std::string& path, bool repla
     for (const auto& [title, other] : panels)
         shown.push_back({other->atoms.get(), &other->result, &other->options, title});
     for (const auto& [style, atoms] : show) shown[0].show.emplace_back(style, atoms->atoms.get());
-    writePicture(shown, path, settings, replace);
-}
-
-void save(const MadeSurface& surface, const std::string& path, bool replace,
-          const std::string& scene)
-{
-    nb::gil_scoped_release free;
-    const std::string end = std::filesystem::path(path).extension().string();
-    if (end == ".vdb") return writeVdb(surface.result, path, replace, scene);
-    if (end == ".json") return writeReport(surface.result.report, path, replace);
-    if (end == ".png" || end == ".html")
-        return writePicture(*surface.atoms, surface.result, surface.options, path, {}, replace);
-    std::string all;
-    bool known = false;
-    for (const std::string& one : meshEndings()) {
-        known = known || end == one;
-        all += one + ", ";
-    }
-    if (!known)
-        throw Error(ErrorKind::Usage,
-                    path + ": expected a name that ends in " + all + ".vdb, .json, .png or .html");
-    writeMesh(surface.result.mesh, path, replace);
+    writeSurface(shown, path, settings, replace);
 }
 
 void addMolecule(nb::module_& m)
@@ -625,7 +604,6 @@ void addSurface(nb::module_& m)
                  return gradientsOf(s, {progress, threads});
              })
         .def("save", save)
-        .def("save_picture", savePicture)
         .def("state", packSurface);
 }
 

@@ -27,6 +27,7 @@ mdtraj: ModuleType
 
 Path = Union[str, PathLike[str]]
 MeshLike = Union[Surface, Path, tuple[ArrayLike, ArrayLike]]
+Walls = Literal["all", "outer", "cavities", None]
 Panels = Union[Sequence[Surface], Mapping[str, Union[Surface, str]], None]
 
 class OptionError(ValueError):
@@ -97,14 +98,18 @@ METHODS = '''\
     def distance(self, points: ArrayLike, *, progress: Callable[[str, float], object] | bool | None = None,
                  threads: int = 0) -> Distances: ...
     def voxels(self) -> Voxels: ...
-    def save(self, path: Path, *, replace: bool = True, panels: Panels = None) -> None: ...
-    def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True) -> None: ...
+    def save(self, path: Path, *, replace: bool = True, panels: Panels = None, walls: Walls = None, crisp: bool = False,
+             center: bool = False, print_scale: float | None = None) -> None: ...
+    def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True, center: bool = False,
+               fog_density: float | None = None) -> None: ...
+    def to_apbs(self, folder: Path, *, apbs_grid: Path | None = None, pdie: float = 2.0, sdie: float = 78.54,
+                ion_conc: float = 0.0, replace: bool = True) -> None: ...
     def view(self, height: int = 480, panels: Panels = None) -> Page: ...
     def picture(self, path: Path, width: int = 1200, *, replace: bool = True, view: ArrayLike | Path | None = None,
                 up: ArrayLike | None = None, turn: float | None = None, background: str | None = None, plain_color: str | None = None,
                 style: str | None = None, opacity: float | None = None, all_walls: bool = False, clip: float | None = None,
                 depth_cue: bool = False, legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False,
-                dpi: float | None = None,
+                dpi: float | None = None, walls: Walls = None,
                 label: Sequence[tuple[ArrayLike, str]] = (), ruler: Sequence[tuple[ArrayLike, ArrayLike]] = (),
                 show: Mapping[str, Molecule] | None = None, panels: Panels = None) -> None: ...
 '''

@@ -16,8 +16,6 @@
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
-#include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/specks.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/check_balls.h"
@@ -153,20 +151,6 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
     return meshes;
 }
 
-// Drops the pieces of the mesh that --walls leaves out: cavities, whose volume is negative, or the
-// others. The report and the .vdb have all.
-void keepWalls(const Call& call, const Progress& progress, Mesh& mesh)
-{
-    if (call.walls == Walls::All || mesh.triangles.empty()) return; // no file has a mesh
-    const MeshPieces pieces = piecesOf(mesh, progress);
-    std::vector<char> gone;
-    for (const PieceMeasure& piece : pieces.measures)
-        gone.push_back((piece.volume < 0.0) != (call.walls == Walls::Cavities));
-    removePieces(pieces, gone, mesh);
-    if (mesh.triangles.empty())
-        throw Error(ErrorKind::Input, "--walls cavities: the surface has no cavity");
-}
-
 // Gives back what pictures need more than files without grids.
 void dropGrids(MolecularSurface& result)
 {
@@ -283,7 +267,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
                     "--pocket-at " + call.atoms.pocketAt +
                         ": no pocket is within 4 Å of these atoms [hint: --pocket-cut 0 finds "
                         "shallow ones, too]");
-    keepWalls(call, terminal, result.mesh);
+    keepWalls(call.walls, terminal, result.mesh); // the report and the .vdb have all
     checkRequired(call.required, result.mesh, result.report.surface);
     warnOfPaint(call, result.mesh, result.report);
     terminal.erase();

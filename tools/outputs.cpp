@@ -136,18 +136,6 @@ std::string unrestText(const EvolutionReport& evolution, double voxel, const std
         steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel, hint.c_str());
 }
 
-std::string inputStem(const std::string& input)
-{
-    const auto member = memberOf(input);
-    std::filesystem::path name = std::filesystem::path(member ? member->name : input).filename();
-    for (const char* const packed : {".gz", ".bz2", ".xz"})
-        if (name.extension() == packed) {
-            name = name.stem();
-            break;
-        }
-    return name.stem().string();
-}
-
 void checkOutput(const Call& call, const Output& output)
 {
     const bool first = output.holds(Numbered) && output.pocket == 0; // their number is not known

@@ -9,6 +9,7 @@
 
 #include "molsurf/io/output_file.h"
 #include "molsurf/report.h"
+#include "molsurf/structure/archive.h"
 
 #include <tbb/global_control.h>
 
@@ -57,9 +58,6 @@ void addReading(const Report& read, Report& report);
 /// @param[in] voxel  edge of a voxel [Å]
 /// @param[in] more   option that lets it make more steps
 std::string unrestText(const EvolutionReport& evolution, double voxel, const std::string& more);
-
-/// The name of an input without folder, .gz, .bz2 or .xz, and extension.
-std::string inputStem(const std::string& input);
 
 /// Finds out whether an output can be written.
 /// @throws Error(ErrorKind::Output) as checkWritable(), if the call reads that file, or if a

@@ -10,6 +10,7 @@
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/surface/drawn_surface.h"
+#include "molsurf/surface/solver_files.h"
 
 #include <malloc.h>
 
@@ -86,12 +87,7 @@ BallSet readBalls(Call& call, Terminal& terminal, Report& report)
         for (const std::string& warning : report.warnings) say("warning: " + warning);
     }
     stopIfAsked();
-    if (balls.charges && call.writes(Solver)) {
-        const ApbsGrid grid = call.apbsInput.empty() ? gridAround(*balls.charges)
-                                                     : readApbsGrid(call.apbsInput, *balls.charges);
-        checkCovers(grid, balls.balls);
-        call.apbsGrid = grid;
-    }
+    if (balls.charges && call.writes(Solver)) call.apbsGrid = solverGrid(call.apbsInput, balls);
     return std::move(balls);
 }
 

@@ -34,8 +34,8 @@
 #include "molsurf/picture/write_png.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/structure/text_fields.h"
-#include "molsurf/surface/compare.h"
 #include "molsurf/surface/pore.h"
+#include "molsurf/surface/solver_files.h"
 #include "molsurf/surface/stored_surface.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/unit_mesh.h"
@@ -106,11 +106,6 @@ openvdb::GridCPtrVec gridsOf(const Call& call, const MolecularSurface& result)
     return scene.known() || call.center ? placeInScene(grids, scene) : grids;
 }
 
-LengthUnit printUnit(const Call& call)
-{
-    return call.printScale > 0.0 ? LengthUnit{call.printScale, "mm"} : LengthUnit{};
-}
-
 std::string stemOf(const std::string& path)
 {
     return path == "-" ? "surface" : std::filesystem::path(path).stem().string();
@@ -166,10 +161,7 @@ ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh
             bordersOf(call.options.color, atoms,
                       asMeshed(placedBalls(atoms, originOf(call)), call.options), mesh, progress);
     if (!cut || !shown.borders) return shown;
-    const KindRow& kind = rowOf(call.options.kind); // a union's creases are off by a voxel at most
-    shown.crisp = withCrispBorders(
-        mesh, *shown.borders, kind.isUnion && !kind.hasOffset ? call.options.voxel : 0.0,
-        call.options.color == ColorBy::Value ? atoms.labels->values->name : "", progress);
+    shown.crisp = crispMesh(mesh, *shown.borders, atoms, call.options, progress);
     return shown;
 }
 
@@ -312,7 +304,7 @@ void writeMesh(const Writing& w, OutputFile& file)
 {
     for (const MeshFormat& format : meshFormats())
         if (std::string(format.word) == w.output.format->word)
-            format.write(w.whole, {stemOf(w.output.path), printUnit(w.call)}, file);
+            format.write(w.whole, {stemOf(w.output.path), w.call.printUnit()}, file);
 }
 
 template<void write(const openvdb::FloatGrid&, const openvdb::Vec3d&, OutputFile&)>
@@ -358,7 +350,7 @@ void writeBeside(const Writing& w, const Mesh& mesh, OutputFile& file)
     }
     for (const MeshFormat& format : meshFormats())
         if (format.word == last)
-            format.write(mesh, {stemOf(w.output.path), printUnit(w.call)}, file);
+            format.write(mesh, {stemOf(w.output.path), w.call.printUnit()}, file);
 }
 
 void writeTube(const Writing& w, OutputFile& file)
@@ -390,28 +382,20 @@ void writeBody(const Writing& w, OutputFile& file)
     writeBeside(w, bodyOf(w), file);
 }
 
-template<int axis>
-void writeDielectric(const Writing& w, OutputFile& file)
+/// Writes a file that APBS reads.
+void writeForSolver(const Writing& w, OutputFile& file)
 {
-    const Spline spline = splineThrough(*w.result.surface, w.progress);
-    writeDielectricMap({*w.result.surface, spline}, *w.call.apbsGrid, axis, w.call.dielectric,
-                       file);
-}
-
-/// Writes what the other files of the run are for.
-void writeSolverInput(const Writing& w, OutputFile& file)
-{
-    const auto pathOf = [&](const char* word) {
+    const auto pathOf = [&](const std::string& word) {
         for (const Output& output : w.call.outputs)
-            if (output.format == findFormat(word)) return output.path;
+            if (output.format->word == word) return output.path;
         return std::string();
     };
-    const ApbsFiles files{pathOf("charges.pqr"),
-                          pathOf("kappa.dx"),
-                          {pathOf("dielx.dx"), pathOf("diely.dx"), pathOf("dielz.dx")}};
-    writeApbsInput("vdb_molsurf: " + displayName(inputStem(w.call.input)) + ", surface " +
-                       nameOf(w.call.options.kind),
-                   files, *w.call.apbsGrid, w.call.dielectric, file);
+    const std::string title =
+        displayName(inputStem(w.call.input)) + ", surface " + nameOf(w.call.options.kind);
+    const SolverRun run{w.atoms, *w.result.surface, *w.call.apbsGrid, w.call.dielectric, title,
+                        pathOf};
+    for (const SolverFile& row : solverFiles())
+        if (row.word == std::string(w.output.format->word)) row.write(run, w.progress, file);
 }
 
 /// Writes atoms with their areas, or those of their residues, as B factors.
@@ -466,10 +450,25 @@ std::vector<Format> areaFormats()
         {"residues.cif", built, Areas, withAreas, "residues", writeAtoms<writeMmcif>}};
 }
 
-std::vector<Format> joined(std::vector<Format> first)
+/// The row of a format of the library.
+/// @throws std::logic_error if there is none of this name
+Format ofMesh(const std::string& word, unsigned verbs,
+              void (*write)(const Writing&, OutputFile&) = writeMesh)
 {
-    for (const Format& format : areaFormats()) first.push_back(format);
-    return first;
+    for (const MeshFormat& format : meshFormats())
+        if (format.word == word) return {format.word, verbs, format.holds, format.help, "", write};
+    throw std::logic_error("no format of meshes is named " + word);
+}
+
+/// All formats in one list, with those of solvers between two others.
+std::vector<Format> joined(std::vector<Format> all, const std::vector<Format>& second)
+{
+    for (const SolverFile& file : solverFiles())
+        all.push_back({file.word, Build, Solver, "", "", writeForSolver});
+    all.insert(all.end(), second.begin(), second.end());
+    const std::vector<Format> areas = areaFormats();
+    all.insert(all.end(), areas.begin(), areas.end());
+    return all;
 }
 
 } // namespace
@@ -478,57 +477,43 @@ const std::vector<Format>& formatTable()
 {
     constexpr unsigned all = Build | Batch | Convert | Compare | BricksMerge;
     constexpr unsigned meshed = Build | Batch | Convert, seen = meshed | Compare;
-    constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
-    constexpr unsigned film = Colors | PlainColor | Copies | Views | Pixels | Moving;
-    static const std::vector<Format> table = joined(
-        {{"vdb", all, Grids | Colors | SceneUnits, "level set and fields", "", writeGrids},
-         {"ply", all, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
-         {"obj", meshed, printed, "mesh", "", writeMesh},
-         {"stl", meshed, Triangles | Millimetres, "mesh", "", writeMesh},
-         {"off", meshed, Triangles | Colors | CutBorders, "mesh", "", writeMesh},
-         {"wrl", meshed, printed, "mesh", "", writeMesh},
-         {"vtk", meshed, Triangles | Colors | CutBorders | VertexCurvatures, "mesh", "", writeMesh},
-         {"glb", meshed,
-          Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels,
-          "mesh", "", writeGlb},
-         {"usda", Build,
-          Stage | Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies |
-              Levels,
-          "mesh", "", writeStage},
-         {"3mf", meshed, printed | Paint, "mesh", "", writeMesh},
-         {"vert", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
-         {"face", meshed, Triangles, "mesh as of MSMS", "", writeMesh},
-         {"poly", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
-         {"msh", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
-         {"msh2", meshed, Triangles, "mesh for tetgen, Gmsh", "", writeMesh},
-         {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
-         {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
-         {"dielx.dx", Build, Solver, "", "", writeDielectric<0>},
-         {"diely.dx", Build, Solver, "", "", writeDielectric<1>},
-         {"dielz.dx", Build, Solver, "", "", writeDielectric<2>},
-         {"kappa.dx", Build, Solver, "", "",
-          [](const Writing& w, OutputFile& file) {
-              writeIonMap(w.atoms.balls, *w.call.apbsGrid, w.call.dielectric.ionRadius, file);
-          }},
-         {"charges.pqr", Build, Solver, "", "",
-          [](const Writing& w, OutputFile& file) { writePqr(*w.atoms.charges, file); }},
-         {"apbs.in", Build, Solver, "", "", writeSolverInput},
-         {"cxc", meshed, Script | Colors | Copies, "scripts for .glb and .ply", "",
-          writeScript<writeChimeraXScript>, "glb"},
-         {"pml", meshed, Script | Colors, "scripts for .glb and .ply", "",
-          writeScript<writePymolScript>, "ply"},
-         {"html", seen, Colors | ColorChoices | PlainColor | Copies | Levels | Views, "page", "",
-          writePage},
-         {"json", all, Numbers | Copies, "report", "",
-          [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
-         {"png", seen, Colors | PlainColor | Copies | Views | Pixels, "picture", "", writePicture},
-         {"mp4", seen, film, "film", "", writeFilm},
-         {"webm", seen, film, "film", "", writeFilm},
-         {"gif", seen, film, "film", "", writeFilm},
-         {"legend.svg", seen, Colors | Copies, "legend", "", writeLegend},
-         {"view", seen, Copies | Views, "view for --view", "", writeCamera},
-         {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
-         {"pockets.vdb", Build, Shares | AllFrames, "", "", nullptr}});
+    constexpr unsigned film = heldByPng | Moving;
+    static const std::vector<Format> table =
+        joined({{"vdb", all, heldByVdb, "level set and fields", "", writeGrids},
+                ofMesh("ply", all),
+                ofMesh("obj", meshed),
+                ofMesh("stl", meshed),
+                ofMesh("off", meshed),
+                ofMesh("wrl", meshed),
+                ofMesh("vtk", meshed),
+                ofMesh("glb", meshed, writeGlb),
+                {"usda", Build,
+                 Stage | Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies |
+                     Levels,
+                 "mesh", "", writeStage},
+                ofMesh("3mf", meshed),
+                ofMesh("vert", meshed),
+                ofMesh("face", meshed),
+                ofMesh("poly", meshed),
+                ofMesh("msh", meshed),
+                ofMesh("msh2", meshed),
+                {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
+                {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>}},
+               {{"cxc", meshed, Script | Colors | Copies, "scripts for .glb and .ply", "",
+                 writeScript<writeChimeraXScript>, "glb"},
+                {"pml", meshed, Script | Colors, "scripts for .glb and .ply", "",
+                 writeScript<writePymolScript>, "ply"},
+                {"html", seen, heldByHtml, "page", "", writePage},
+                {"json", all, Numbers | Copies, "report", "",
+                 [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
+                {"png", seen, heldByPng, "picture", "", writePicture},
+                {"mp4", seen, film, "film", "", writeFilm},
+                {"webm", seen, film, "film", "", writeFilm},
+                {"gif", seen, film, "film", "", writeFilm},
+                {"legend.svg", seen, Colors | Copies, "legend", "", writeLegend},
+                {"view", seen, Copies | Views, "view for --view", "", writeCamera},
+                {"csv", Build, FrameRows | AllFrames, "table of --frames", "", nullptr},
+                {"pockets.vdb", Build, Shares | AllFrames, "", "", nullptr}});
     return table;
 }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """The programs that the wheel brings along."""
 
+import pickle
 import re
 import shutil
 import subprocess
@@ -68,6 +69,75 @@ def test_panels_and_notes_are_those_of_the_command(tmp_path):
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
     made.picture(tmp_path / "c.png", 600, panels={"": "variational", "ses": ses})
     assert (tmp_path / "c.png").read_bytes() != (tmp_path / "a.png").read_bytes()
+
+
+def both(tmp_path, name, made, words, **keywords):
+    """The bytes of a file by the module and by the command."""
+    made.save(tmp_path / f"a{name}", **keywords)
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "-q", *words, "-o", tmp_path / f"b{name}", "--force"], check=True)
+    return [(tmp_path / f"{letter}{name}").read_bytes() for letter in "ab"]
+
+
+def test_files_are_those_of_the_command(tmp_path):
+    """Each option of files has the bytes of the command's file, other than those without it."""
+    molecule = ms.read(DATA / "1crn.pdb", voxel=0.7, color="element")
+    ses, words = molecule.surface(kind="ses"), ["--surface", "ses", "--voxel", "0.7", "--color", "element"]
+    for name, keywords, more in [(".ply", {"crisp": True}, ["--crisp"]), (".obj", {"walls": "outer"}, ["--walls", "outer"]),
+                                 (".ply", {"walls": "cavities"}, ["--walls", "cavities"]), (".off", {"center": True}, ["--center"]),
+                                 (".stl", {"print_scale": 0.5}, ["--print-scale", "0.5"])]:
+        plain, _ = both(tmp_path, name, ses, words)
+        ours, theirs = both(tmp_path, name, ses, [*words, *more], **keywords)
+        assert ours == theirs and ours != plain, keywords
+    for name in ("walls.png", "plain.png"):
+        ses.picture(tmp_path / name, 80, walls="cavities" if name == "walls.png" else None)
+    assert (tmp_path / "walls.png").read_bytes() != (tmp_path / "plain.png").read_bytes()
+    thick = molecule.surface(min_wall=4)
+    ours, theirs = both(tmp_path, ".stl", thick, ["--voxel", "0.7", "--print-scale", "0.5", "--min-wall", "2"], print_scale=0.5)
+    assert ours == theirs and thick.volume > molecule.surface().volume + 1
+    with pytest.raises(ms.OptionError, match="`crisp`: .*does not show it"):
+        ses.save(tmp_path / "c.stl", crisp=True)
+    with pytest.raises(ms.OptionError, match="`walls`: expected all or outer or cavities"):
+        ses.save(tmp_path / "c.stl", walls="inner")
+    assert not (tmp_path / "c.stl").exists()
+
+
+def test_a_fog_is_that_of_the_command(tmp_path):
+    made = ms.read(DATA / "1crn.pdb", voxel=1).surface(kind="ses", fields="density")
+    made.to_vdb(tmp_path / "a.vdb", "houdini", center=True, fog_density=0.3)
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", "--voxel", "1", "--for", "houdini", "--fog-density",
+                    "0.3", "--center", "-q", "-o", tmp_path / "b.vdb"], check=True)
+    told = [subprocess.run([command("vdb_molsurf"), "info", tmp_path / name], capture_output=True, text=True, check=True).stdout
+            for name in ("a.vdb", "b.vdb")]
+    grids = [re.findall("  grid (?:surface|density)\n(?:    .*\n)*", text) for text in told]
+    kept = [[re.sub("    (?:creator|file_).*\n", "", grid) for grid in some] for some in grids]
+    assert len(kept[0]) == 2 and kept[0] == kept[1]
+    with pytest.raises(ms.OptionError, match="scene: expected"):
+        made.to_vdb(tmp_path / "c.vdb", "maya")
+
+
+def test_files_of_apbs_are_those_of_the_command(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with open("ion.pqr", "w") as file:
+        for n, (x, q) in enumerate([(0, 1), (2.5, -0.4), (4, 0.4)], 1):
+            file.write(f"ATOM  {n:5d}  C   ION  {n:4d}    {x:8.3f}   0.000   1.000 {q:.3f} 1.800\n")
+    options = ["--pdie", "3", "--sdie", "80", "--ion-conc", "0.15"]
+    subprocess.run([command("vdb_molsurf"), "ion.pqr", "--for", "apbs", *options, "-q", "-o", "run/"], check=True)
+    ours = tmp_path / "run"
+    expected = {path.name: path.read_bytes() for path in ours.iterdir()}
+    molecule = ms.read("ion.pqr", charges=True)
+    ses = pickle.loads(pickle.dumps(molecule)).surface(kind="ses")
+    with pytest.raises(ms.OutputError, match="replace=True"):
+        ses.to_apbs("run", replace=False)
+    shutil.rmtree(ours)
+    ses.to_apbs("run", pdie=3, sdie=80, ion_conc=0.15)
+    assert {path.name: path.read_bytes() for path in ours.iterdir()} == expected and len(expected) == 6
+    ses.to_apbs("again", apbs_grid="run/apbs.in", pdie=3, sdie=80, ion_conc=0.15)
+    assert (tmp_path / "again" / "ion.dielx.dx").read_bytes() == expected["ion.dielx.dx"]
+    with pytest.warns(UserWarning, match="another energy"):
+        molecule.surface().to_apbs("other")
+    with pytest.raises(ms.OptionError, match="charges"):
+        ms.read("ion.pqr").surface(kind="ses").to_apbs("none")
+    assert not (tmp_path / "none").exists()
 
 
 def test_pages_have_layers(tmp_path):

@@ -301,7 +301,7 @@ class Surface:
         """The force on each atom, -(gamma dA/dx + pressure dV/dx), in closed form of kinds ses, sas and vdw.
 
         Of variational and smooth-sas it is that of the mesh, by the shape derivative; gaussian has none. A warning counts
-        atoms beside gaps that were decided, whose forces are uncertain.
+        atoms of variational beside gaps that were decided, whose forces are uncertain.
 
         gamma is energy per Å², pressure energy per Å³; the result, of shape (atoms, 3), is energy per Å.
         """
@@ -311,7 +311,7 @@ class Surface:
         volume, area, beside = _called(self._core.gradients, progress=progress, threads=threads)
         if beside:
             warnings.warn(f"forces: {beside} atoms lie beside gaps that the surface closes or opens; their forces leave out how "
-                          "that changes and can be wrong by their own size [hint: kind=\"ses\" is in closed form]", stacklevel=2)
+                          "rounding changes there and can be wrong by their own size [hint: kind=\"ses\" is in closed form]", stacklevel=2)
         return -(float(gamma) * area + float(pressure) * volume)
 
     def sample(self, n, seed=None):
@@ -344,44 +344,61 @@ class Surface:
         """The voxels of the level set, about three on either side of the surface, and their signed distances."""
         return Voxels(*self._core.voxels())
 
-    def save(self, path, *, replace=True, panels=None):
+    def save(self, path, *, replace=True, panels=None, walls=None, crisp=False, center=False, print_scale=None):
         """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json, .png, or .html, a page.
 
         panels: further surfaces of a .png or .html, as of picture().
+        walls: closed pieces that meshes, pictures and pages have: "all", "outer" or "cavities".
+        crisp: cuts the triangles of a mesh file where colours meet.
+        center: moves the middle of the surface to the origin, in meshes and .vdb.
+        print_scale: .stl, .obj, .wrl and .3mf are in mm, so many per Å.
         """
-        if panels is None:
-            return self._save(path, replace)
-        if not os.fspath(path).endswith((".png", ".html")):
+        if panels is not None and not os.fspath(path).endswith((".png", ".html")):
             raise ValueError("panels: expected a path that ends in .png or .html")
-        self._save_picture(path, replace, [], panels, {})
+        self._save(path, replace, {"walls": walls, "crisp": crisp, "center": center, "print-scale": print_scale}, panels)
 
-    def _save(self, path, replace, scene=""):
-        """Writes a file; messages name the keywords of Python."""
-        self._written(self._core.save, path, replace, scene)
-
-    def _save_picture(self, path, replace, settings, panels, show):
-        """Writes a picture or page with what it shows beside the surface."""
+    def _save(self, path, replace, options, panels=None, show=None, more=()):
+        """Writes a file with options of the command line, those that are not None or False; messages name Python's keywords."""
+        settings = [(name, _word(value)) for name, value in options.items() if value is not None and value is not False]
         name, others = _named(self, panels)
-        self._written(self._core.save_picture, path, replace, settings, (name, others, _shown(show)))
-
-    @staticmethod
-    def _written(write, path, replace, *how):
         try:
-            write(os.fspath(path), bool(replace), *how)
+            self._core.save(os.fspath(path), bool(replace), [*settings, *more], (name, others, _shown(show or {})))
         except _core.OptionError as error:
-            raise type(error)(str(error).replace("`size`", "width")) from None
+            words = str(error)
+            for ours, theirs in (("`size`", "width"), ("`for`", "scene")):
+                words = words.replace(ours, theirs)
+            raise type(error)(words) from None
         except _core.OutputError as error:
             raise type(error)(str(error).replace("`force` replaces it", "replace=True replaces it")) from None
 
-    def to_vdb(self, path, scene=None, *, replace=True):
+    def to_vdb(self, path, scene=None, *, replace=True, center=False, fog_density=None):
         """Writes the grids as a .vdb for "blender", "blender4", "houdini" or "usd", perhaps with "=SCALE"; None: in Å, as they are.
 
         They are the level set and those of `fields`: Blender shows a fog, which is fields="density".
+
+        center: moves the middle of the surface to the origin.
+        fog_density: optical depth of an Å of fog at density 1 in the program; without it values of density are 0 to 1.
         """
         path = os.fspath(path)
         if not path.endswith(".vdb"):
             raise ValueError("to_vdb: expected a name that ends in .vdb")
-        self._save(path, replace, scene="" if scene is None else str(scene))
+        self._save(path, replace, {"for": scene, "center": center, "fog-density": fog_density})
+
+    def to_apbs(self, folder, *, apbs_grid=None, pdie=2.0, sdie=78.54, ion_conc=0.0, replace=True):
+        """Writes the files of a calculation of APBS with this surface into a folder, which is made: maps, charges, apbs.in.
+
+        The atoms are of a file with charges and radii, such as a .pqr: read(path, charges=True). A surface of another
+        kind than "ses", or one that matches it, has another energy, which a warning says.
+
+        apbs_grid: an input of APBS whose dime, glen and gcent are used; without it the lattice is by pdb2pqr's rule psize.
+        pdie, sdie: relative permittivity of the molecule and of the solvent.
+        ion_conc: concentration of a 1:1 salt [mol/L].
+        """
+        self._save(folder, replace, {"for": "apbs", "apbs-grid": apbs_grid, "pdie": float(pdie), "sdie": float(sdie),
+                                     "ion-conc": float(ion_conc)})
+        if self.kind != "ses" and not any(name == "match" for name, _ in self._made[0]):
+            warnings.warn(f"to_apbs: a surface of kind {self.kind} has another energy than the solvent-excluded one "
+                          "[hint: kind=\"ses\", or match=\"ses\"]", stacklevel=2)
 
     def view(self, height=480, panels=None):
         """The page of save("name.html") as what a notebook shows: a surface to turn, with its colours and atoms."""
@@ -394,7 +411,7 @@ class Surface:
 
     def picture(self, path, width=1200, *, replace=True, view=None, up=None, turn=None, background=None, plain_color=None,
                 style=None, opacity=None, all_walls=False, clip=None, depth_cue=False, legend=None, scale_bar=False, dpi=None,
-                label=(), ruler=(), show=None, panels=None):
+                walls=None, label=(), ruler=(), show=None, panels=None):
         """Draws the surface into a .png of so many pixels.
 
         The keywords are the command line's options of pictures. `view` and `up` are directions (x, y, z), toward the
@@ -412,11 +429,10 @@ class Surface:
             raise ValueError("picture: expected a name that ends in .png")
         given = {"size": int(width), "view": view, "up": up, "turn": turn, "background": background, "plain-color": plain_color, "style": style,
                  "opacity": opacity, "all-walls": all_walls, "clip": clip, "depth-cue": depth_cue, "legend": legend,
-                 "scale-bar": scale_bar, "dpi": dpi}
-        settings = [(name, _word(value)) for name, value in given.items() if value is not None and value is not False]
-        settings += [("label", f"{_place('label', place)}={text}") for place, text in label]
-        settings += [("ruler", f"{_place('ruler', start)}..{_place('ruler', end)}") for start, end in ruler]
-        self._save_picture(path, replace, settings, panels, show or {})
+                 "scale-bar": scale_bar, "dpi": dpi, "walls": walls}
+        notes = [("label", f"{_place('label', place)}={text}") for place, text in label]
+        notes += [("ruler", f"{_place('ruler', start)}..{_place('ruler', end)}") for start, end in ruler]
+        self._save(path, replace, given, panels, show, notes)
 
 
 class Page:

@@ -5,21 +5,28 @@
 #include "molsurf/color/palette.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/io/commit.h"
+#include "molsurf/io/holds.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/read_mesh.h"
 #include "molsurf/io/scene.h"
+#include "molsurf/io/write_glb.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/io/write_report.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/mesh/check_arrays.h"
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/picture/write_png.h"
+#include "molsurf/structure/archive.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/drawn_surface.h"
+#include "molsurf/surface/file_settings.h"
+#include "molsurf/surface/solver_files.h"
 #include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <optional>
 
@@ -72,6 +79,90 @@ bool areInOnePlace(const BallSet& a, const BallSet& b)
         [](const Ball& one, const Ball& other) { return one.center == other.center; });
 }
 
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+/// The options of a file.
+struct FileLook : PictureSettings, FileSettings {
+};
+
+/// Sets what words say.
+/// @param[in] holds  the content of the file, a set of holds::Content
+/// @throws Error(ErrorKind::Usage) if one is wrong or the file does not show it
+FileLook lookOf(const Words& settings, const std::string& path, unsigned holds)
+{
+    FileLook look;
+    const auto take = [&](const auto& row, const std::string& value) {
+        if (!(row.shownIn & holds))
+            throw Error(ErrorKind::Usage, memberName(row.name) + ": " + path + " does not show it");
+        row.set(look, {value});
+    };
+    for (const auto& [name, value] : settings) {
+        const FileSetting* row = findRow(fileSettings(), name);
+        row ? take(*row, value) : take(pictureSetting(name), value);
+    }
+    return look;
+}
+
+/// A surface as a file shows it: in the place of the whole, with the walls and the borders between
+/// colours that are asked for.
+class FileSurface
+{
+public:
+    FileSurface(const ShownSurface& shown, const FileLook& look)
+        : shown_(shown), look_(look), whole_(ballsOfWhole(*shown.atoms))
+    {
+        checkArrays(shown.surface->mesh);
+        if (look.walls == Walls::All) return;
+        own_ = shown.surface->mesh;
+        keepWalls(look.walls, Progress(), *own_);
+    }
+
+    const Mesh& mesh() const { return own_ ? *own_ : shown_.surface->mesh; }
+
+    /// Finds the borders between colours.
+    /// @param[in] cut  whether triangles are cut there
+    void findBorders(bool cut)
+    {
+        const BallSet& atoms = *shown_.atoms;
+        const SurfaceOptions& options = *shown_.options;
+        const Progress nobody;
+        const BallSet colored = repeats() ? repeated(atoms, options.color, whole_) : BallSet();
+        const BallSet& all = repeats() ? colored : atoms;
+        borders_ = bordersOf(options.color, all, asMeshed(whole_.balls, options), mesh(), nobody);
+        if (cut && borders_) own_ = crispMesh(mesh(), *borders_, all, options, nobody);
+    }
+
+    /// Moves the middle of the mesh's box to the origin.
+    /// @return where it was [Å]
+    openvdb::Vec3d moveToOrigin()
+    {
+        if (!own_) own_ = shown_.surface->mesh;
+        openvdb::BBoxd box;
+        for (const openvdb::Vec3f& p : own_->positions) box.expand(openvdb::Vec3d(p));
+        const openvdb::Vec3d center = box.getCenter();
+        for (openvdb::Vec3f& p : own_->positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
+        return center;
+    }
+
+    DrawnSurface drawn() const
+    {
+        DrawnSurface all{*shown_.atoms, mesh(), *shown_.options, look_.picture,
+                         repeats() ? &whole_ : nullptr};
+        all.name = shown_.name;
+        all.borders = borders_;
+        return all;
+    }
+
+private:
+    bool repeats() const { return !shown_.atoms->placement.isWhole(); }
+
+    const ShownSurface& shown_;
+    const FileLook& look_;
+    WholeBalls whole_;
+    std::optional<Mesh> own_{}; ///< unless it is that of the surface
+    std::shared_ptr<const ColorOwners> borders_{};
+};
+
 /// The layers of a page.
 std::vector<HtmlLayer> layersOf(const std::vector<ShownSurface>& surfaces,
                                 const std::vector<DrawnSurface>& drawn, const std::string& title,
@@ -84,9 +175,101 @@ std::vector<HtmlLayer> layersOf(const std::vector<ShownSurface>& surfaces,
             aboutPage(shown.surface->report.surface.kind, shown.options->voxel);
         HtmlPage page = pageOf(drawn[n], title, about, progress);
         page.inPlace = areInOnePlace(*shown.atoms, *surfaces[0].atoms);
-        layers.push_back({shown.surface->mesh, std::move(page)});
+        layers.push_back({drawn[n].mesh, std::move(page)});
     }
     return layers;
+}
+
+void drawSurfaceFiles(const std::vector<ShownSurface>& surfaces, const std::string& path,
+                      const FileLook& look, bool isPage, bool replace)
+{
+    const Progress nobody;
+    std::deque<FileSurface> made; // DrawnSurface refers to it
+    std::vector<DrawnSurface> drawn;
+    for (const ShownSurface& shown : surfaces) {
+        made.emplace_back(shown, look).findBorders(isPage);
+        drawn.push_back(made.back().drawn());
+        const bool inPlace = areInOnePlace(*shown.atoms, *surfaces[0].atoms);
+        if (!inPlace) drawn.back().look.notes.clear();
+        if (isPage) continue;
+        const bool likeFirst = inPlace && shown.show.empty();
+        showAtoms(likeFirst ? surfaces[0].show : shown.show, *shown.atoms, nobody,
+                  drawn.back().look);
+    }
+    const std::string title = std::filesystem::path(path).stem().string();
+    OutputFile file(path, replace);
+    isPage ? writeHtml(layersOf(surfaces, drawn, title, nobody), file)
+           : writePng(drawSurfaces(drawn, look, nobody), file);
+    file.commit();
+}
+
+void writeGrids(const MolecularSurface& surface, const std::string& path, const Scene& scene,
+                bool moved, bool replace)
+{
+    const openvdb::GridPtrVec all = surface.grids();
+    if (all.empty()) throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
+    const openvdb::GridCPtrVec grids(all.begin(), all.end());
+    openvdb::MetaMap metadata;
+    describeScene(scene, metadata);
+    OutputFile file(path, replace);
+    writeVdb(scene.known() || moved ? placeInScene(grids, scene) : grids, metadata, file);
+    file.commit();
+}
+
+/// Writes what APBS reads into a folder, which is made.
+void writeSolverFiles(const ShownSurface& shown, const std::string& folder, const FileLook& look,
+                      bool replace)
+{
+    const BallSet& atoms = *shown.atoms;
+    if (!atoms.charges || !atoms.placement.isWhole() || !shown.surface->surface)
+        throw Error(ErrorKind::Usage,
+                    "`for` apbs: expected a surface with a grid, of all atoms of a file with their "
+                    "`charges`");
+    const std::string& input = shown.surface->report.input;
+    const auto pathOf = [&](const std::string& word) {
+        return solverPath(folder, input.empty() ? "surface" : input, word);
+    };
+    const SolverRun run{atoms,
+                        *shown.surface->surface,
+                        solverGrid(look.apbsInput, atoms),
+                        look.dielectric,
+                        displayName(inputStem(input)) + ", surface " + nameOf(shown.options->kind),
+                        pathOf};
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem)
+        throw Error(ErrorKind::Output,
+                    "cannot make the folder " + folder + ": " + problem.message());
+    std::deque<OutputFile> files;
+    std::vector<OutputFile*> all;
+    for (const SolverFile& row : solverFiles()) {
+        all.push_back(&files.emplace_back(pathOf(row.word), replace));
+        row.write(run, Progress(), files.back());
+    }
+    commit(all);
+}
+
+/// The format of a mesh file, or null.
+const MeshFormat* meshFormatOf(const std::string& ending)
+{
+    for (const MeshFormat& format : meshFormats())
+        if (ending == std::string(".") + format.word) return &format;
+    return nullptr;
+}
+
+void writeMeshFile(const ShownSurface& shown, const MeshFormat& format, const std::string& path,
+                   const FileLook& look, bool replace)
+{
+    FileSurface made(shown, look);
+    if (look.crisp) made.findBorders(true);
+    if (look.center) made.moveToOrigin();
+    const std::string name = std::filesystem::path(path).stem().string();
+    OutputFile file(path, replace);
+    if (format.holds & holds::SceneUnits)
+        writeGlb(made.mesh(), {name, look.scene.scale, look.picture.plain}, file);
+    else
+        format.write(made.mesh(), {name, look.printUnit()}, file);
+    file.commit();
 }
 
 } // namespace
@@ -110,15 +293,13 @@ void writeMesh(const Mesh& mesh, const std::string& path, bool replace)
 {
     checkArrays(mesh);
     const std::filesystem::path name = path;
-    for (const MeshFormat& format : meshFormats()) {
-        if (name.extension().string() != std::string(".") + format.word) continue;
-        OutputFile file(path, replace);
-        format.write(mesh, {name.stem().string()}, file);
-        file.commit();
-        return;
-    }
-    throw Error(ErrorKind::Usage,
-                path + ": expected a name that ends in " + joinWords(meshEndings(), " or "));
+    const MeshFormat* format = meshFormatOf(name.extension().string());
+    if (!format)
+        throw Error(ErrorKind::Usage,
+                    path + ": expected a name that ends in " + joinWords(meshEndings(), " or "));
+    OutputFile file(path, replace);
+    format->write(mesh, {name.stem().string()}, file);
+    file.commit();
 }
 
 void writeVdb(const MolecularSurface& surface, const std::string& path, bool replace,
@@ -129,14 +310,7 @@ void writeVdb(const MolecularSurface& surface, const std::string& path, bool rep
         throw Error(ErrorKind::Usage, "scene: expected blender, houdini or usd, perhaps with "
                                       "=SCALE, got " +
                                           inQuotes(scene));
-    const openvdb::GridPtrVec all = surface.grids();
-    if (all.empty()) throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
-    const openvdb::GridCPtrVec grids(all.begin(), all.end());
-    openvdb::MetaMap metadata;
-    describeScene(*place, metadata);
-    OutputFile file(path, replace);
-    writeVdb(place->known() ? placeInScene(grids, *place) : grids, metadata, file);
-    file.commit();
+    writeGrids(surface, path, *place, false, replace);
 }
 
 void writeReport(const Report& report, const std::string& path, bool replace)
@@ -164,39 +338,39 @@ void writePicture(const BallSet& atoms, const MolecularSurface& surface,
 void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& path,
                   const std::vector<std::pair<std::string, std::string>>& settings, bool replace)
 {
-    const Progress nobody;
-    const std::filesystem::path name = path;
-    const bool isPage = name.extension() == ".html";
-    PictureSettings look;
-    for (const auto& [setting, value] : settings) pictureSetting(setting).set(look, {value});
+    const bool isPage = std::filesystem::path(path).extension() == ".html";
+    const FileLook look = lookOf(settings, path, isPage ? holds::heldByHtml : holds::heldByPng);
     if (surfaces.empty()) throw Error(ErrorKind::Usage, path + ": expected a surface, got none");
-    std::vector<WholeBalls> wholes;
-    for (const ShownSurface& shown : surfaces) {
-        checkArrays(shown.surface->mesh);
-        wholes.push_back(ballsOfWhole(*shown.atoms));
+    drawSurfaceFiles(surfaces, path, look, isPage, replace);
+}
+
+void writeSurface(const std::vector<ShownSurface>& surfaces, const std::string& path,
+                  const std::vector<std::pair<std::string, std::string>>& settings, bool replace)
+{
+    const std::string ending = std::filesystem::path(path).extension().string();
+    if (ending == ".png" || ending == ".html")
+        return writePicture(surfaces, path, settings, replace);
+    if (surfaces.size() != 1)
+        throw Error(ErrorKind::Usage,
+                    path + ": expected one surface, got " + std::to_string(surfaces.size()));
+    const ShownSurface& shown = surfaces[0];
+    if (std::count(settings.begin(), settings.end(),
+                   std::pair<std::string, std::string>("for", "apbs")))
+        return writeSolverFiles(shown, path, lookOf(settings, path, holds::Solver), replace);
+    if (ending == ".vdb") {
+        FileLook look = lookOf(settings, path, holds::heldByVdb);
+        if (look.center) look.scene.center = FileSurface(shown, look).moveToOrigin();
+        return writeGrids(*shown.surface, path, look.scene, look.center, replace);
     }
-    std::vector<DrawnSurface> drawn;
-    for (std::size_t n = 0; n < surfaces.size(); ++n) {
-        const ShownSurface& shown = surfaces[n];
-        const BallSet& atoms = *shown.atoms;
-        const SurfaceOptions& options = *shown.options;
-        const bool repeats = !atoms.placement.isWhole();
-        drawn.push_back(
-            {atoms, shown.surface->mesh, options, look.picture, repeats ? &wholes[n] : nullptr});
-        drawn[n].name = shown.name;
-        const bool inPlace = areInOnePlace(atoms, *surfaces[0].atoms);
-        if (!inPlace) drawn[n].look.notes.clear();
-        if (isPage) continue;
-        const bool likeFirst = inPlace && shown.show.empty();
-        showAtoms(likeFirst ? surfaces[0].show : shown.show, atoms, nobody, drawn[n].look);
-        drawn[n].borders =
-            bordersOf(options.color, repeats ? repeated(atoms, options.color, wholes[n]) : atoms,
-                      asMeshed(wholes[n].balls, options), shown.surface->mesh, nobody);
+    if (ending == ".json") {
+        lookOf(settings, path, holds::Numbers);
+        return writeReport(shown.surface->report, path, replace);
     }
-    OutputFile file(path, replace);
-    isPage ? writeHtml(layersOf(surfaces, drawn, name.stem().string(), nobody), file)
-           : writePng(drawSurfaces(drawn, look, nobody), file);
-    file.commit();
+    if (const MeshFormat* format = meshFormatOf(ending))
+        return writeMeshFile(shown, *format, path, lookOf(settings, path, format->holds), replace);
+    throw Error(ErrorKind::Usage, path + ": expected a name that ends in " +
+                                      joinWords(meshEndings(), ", ") +
+                                      ", .vdb, .json, .png or .html");
 }
 
 } // namespace molsurf

@@ -57,7 +57,8 @@ void writePicture(const Mesh& mesh, const std::string& path, int width = 1200, b
 /// a page that shows it in a browser and names its atoms.
 /// @param[in] options   that the surface was made with
 /// @param[in] settings  names and values of the picture's options on the command line, such as
-///                      {"size", "600"} or {"view", "1,0,0"}; the value of a switch does not matter
+///                      {"size", "600"} or {"walls", "outer"}; the value of a switch does not
+///                      matter
 /// @param[in] replace   as above
 /// @throws Error(ErrorKind::Usage) if a setting is wrong
 /// @throws Error(ErrorKind::Output) if the file cannot be written
@@ -81,9 +82,25 @@ struct ShownSurface {
 /// that shows them side by side or one at a time. The first one decides the view.
 /// @param[in] surfaces  at least one; those of atoms in the same places lie in one place on a page,
 ///                      and the labels and rulers of a picture are theirs alone
-/// @param[in] settings  as above; pages take the plain colour and the opacity
+/// @param[in] settings  as above; pages take the view, the plain colour, the opacity and the walls
 /// @throws as above
 void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& path,
+                  const std::vector<std::pair<std::string, std::string>>& settings = {},
+                  bool replace = true);
+
+/// Writes a surface in the format that the extension names: a mesh, as writeMesh(), .vdb, .json,
+/// .png or .html; or, with {"for", "apbs"}, into a folder the files that APBS reads: maps of the
+/// dielectric and of ions, charges and its input (docs/electrostatics.md). These come all or none.
+///
+/// @param[in] surfaces  one; of a .png or .html more, as writePicture() takes them
+/// @param[in] settings  names and values of the options of files and pictures on the command line,
+///                      such as {"walls", "outer"}, {"crisp", ""} or {"print-scale", "0.5"}
+/// @param[in] replace   as above
+/// @throws Error(ErrorKind::Usage) if a setting is wrong or one that the file does not show, if the
+///         extension is another one, or if APBS is to get atoms that were read without
+///         SelectOptions::charges or are a part of the whole
+/// @throws Error(ErrorKind::Output) if a file cannot be written
+void writeSurface(const std::vector<ShownSurface>& surfaces, const std::string& path,
                   const std::vector<std::pair<std::string, std::string>>& settings = {},
                   bool replace = true);
 

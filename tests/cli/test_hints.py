@@ -403,12 +403,13 @@ CASES = {
          "vdb_molsurf 1crn.pdb --voxel 0.15 --center -o a.ply"),
         ("--memory ", "vdb_molsurf 1crn.pdb --voxel 2 --memory 10M -o a.ply", # and then the hint that follows
          f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply || vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply")],
+    "surface/solver_files.cpp": [
+        ("--surface ses, or --match ses", "vdb_molsurf ion.pqr --for apbs --surface vdw -o far/",
+         "vdb_molsurf ion.pqr --for apbs --surface ses --force -o far/ && vdb_molsurf ion.pqr --for apbs --match ses --force -o far/")],
     "tools/cli/complete.cpp": [
         ("-o run/", "vdb_molsurf ion.pqr --for apbs -o a.ply",
          "vdb_molsurf ion.pqr --for apbs -o run/"),
         ("--for apbs -o run/", "vdb_molsurf ion.pqr -o a.apbs.in", "vdb_molsurf ion.pqr --for apbs -o run/ --force"),
-        ("--surface ses, or --match ses", "vdb_molsurf ion.pqr --for apbs --surface vdw -o far/",
-         "vdb_molsurf ion.pqr --for apbs --surface ses --force -o far/ && vdb_molsurf ion.pqr --for apbs --match ses --force -o far/"),
         ("-o FILE.pore.csv", "vdb_molsurf 1grm.pdb.gz -o .pore.csv", "vdb_molsurf 1grm.pdb.gz -o a.pore.csv"),
         ("-o FILE.residues.csv, or -o FILE.json --areas residues", "vdb_molsurf 1crn.pdb -o a.residues.json",
          "vdb_molsurf 1crn.pdb -o a.residues.csv", "vdb_molsurf 1crn.pdb -o a.json --areas residues"),

@@ -7,12 +7,12 @@
 #include "require.h"
 
 #include "molsurf/io/frame_files.h"
-#include "molsurf/io/scene.h"
-#include "molsurf/io/write_apbs.h"
+#include "molsurf/io/holds.h"
 #include "molsurf/picture/atom_model.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/area_tables.h"
 #include "molsurf/surface/field_table.h"
+#include "molsurf/surface/file_settings.h"
 #include "molsurf/surface/picture_settings.h"
 
 #include <cstddef>
@@ -39,34 +39,7 @@ namespace molsurf::tool
 // The formats of output files, a row each: the words of the command line, its help, what a verb
 // writes, what a file cannot show, and the writers come from it.
 
-/// Contents of a file of a format. Bits make sets.
-enum Holds : unsigned {
-    Grids = 1 << 0,             ///< the level set and its fields
-    Triangles = 1 << 1,         ///< the mesh; of a whole by symmetry all of its triangles
-    Numbers = 1 << 2,           ///< the report
-    Areas = 1 << 3,             ///< a table of areas, or atoms with theirs
-    FrameRows = 1 << 4,         ///< the table of all frames
-    AllFrames = 1 << 17,        ///< rows of all frames in one file
-    Stage = 1 << 5,             ///< a scene of OpenUSD: mesh, copies, film or the volume of a .vdb
-    Colors = 1 << 6,            ///< of vertices, voxels or copies
-    ColorChoices = 1 << 7,      ///< several colourings, to choose from
-    PlainColor = 1 << 8,        ///< the colour of what has no other
-    CutBorders = 1 << 9,        ///< borders between colours, where they are asked for
-    VertexCurvatures = 1 << 10, ///< attributes of vertices
-    Millimetres = 1 << 11,      ///< lengths for a print
-    SceneUnits = 1 << 12,       ///< lengths as another program takes them
-    Copies = 1 << 13,           ///< all copies of an assembly
-    Levels = 1 << 14,           ///< levels of detail
-    Views = 1 << 15,            ///< the surface as seen from somewhere, with crisp borders
-    Pixels = 1 << 16,           ///< a picture
-    Volume = 1 << 18,           ///< the level set on all points of a box
-    Paint = 1 << 20,            ///< colours of triangles for slicers, of which there are few
-    Script = 1 << 19,           ///< what opens another file of the run
-    Solver = 1 << 21,           ///< what APBS reads
-    Shares = 1 << 22,           ///< shares of frames, on voxels
-    Numbered = 1 << 24,         ///< a file of each pocket
-    Moving = 1 << 23            ///< the pictures of a turntable or of frames in one film
-};
+using namespace holds;
 
 /// Source of a file, and how it is written.
 struct Writing;
@@ -75,7 +48,7 @@ struct Writing;
 struct Format {
     const char* word;  ///< how a file's name ends, without the first dot: "ply", "atoms.csv"
     unsigned verbs;    ///< that write it
-    unsigned holds;    ///< of Holds
+    unsigned holds;    ///< of holds::Content
     const char* help;  ///< what a file is, for help texts; of two in turn with the same said once;
                        ///< "": an option that asks for it says it
     const char* table; ///< the table of areas that it has, one of areaTables(); "" if none
@@ -133,13 +106,9 @@ struct Panel {
 /// given more than once.
 using GivenOptions = std::map<std::string, std::vector<std::string>>;
 
-/// Which closed pieces of the surface meshes and pictures have.
-enum class Walls { All, Outer, Cavities };
-const char* nameOf(Walls walls);
-
 /// A command line. The settings and the first part are set by options, see optionTable(), the
 /// second part is made of them.
-struct Call : Settings, PictureSettings {
+struct Call : Settings, PictureSettings, FileSettings {
     Verb verb = Build;
     std::string command;             ///< the command line as typed, quoted for a shell
     std::vector<std::string> inputs; ///< the words that are no options
@@ -158,18 +127,11 @@ struct Call : Settings, PictureSettings {
     int firstFrame = 1;            ///< number of the first file of frames
     std::string groupsFile;
     std::vector<double> lod; ///< voxels of levels of detail [Å], the finest first; empty: one
-    Scene scene;             ///< of the .vdb and the node of the .glb
-    bool forApbs = false;    ///< a folder of --output gets what APBS reads
-    std::string apbsInput;   ///< whose lattice is used; empty: that of gridAround()
-    Dielectric dielectric;
     std::optional<ApbsGrid> apbsGrid{}; ///< known when the atoms are
-    bool crisp = false;                 ///< mesh files have the borders between colours cut
     std::vector<std::string> areas;     ///< tables of areas in the report: "atoms", "residues", ...
     ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts
     bool weld = false;                             ///< units of a whole share their vertices
-    bool center = false;         ///< the middle of the surface comes to the origin
-    double printScale = 0.0;     ///< of .stl, .obj, .wrl and .3mf [mm/Å]; 0: they are in Å
-    double wall = 0.0;           ///< least thickness of a print [mm]; 0: none
+    double wall = 0.0;                             ///< least thickness of a print [mm]; 0: none
     std::string viewed;          ///< atoms that face the eye, a selection; empty: none
     std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
     bool showsPockets = false;   ///< whether pictures and pages show the bodies of pockets
@@ -182,7 +144,6 @@ struct Call : Settings, PictureSettings {
     std::size_t memory = 0;      ///< bytes at most; 0: no limit
     double hours = 24.0;         ///< that a surface may take, by the estimate
     bool dryRun = false;         ///< only say what it takes
-    Walls walls = Walls::All;
     std::vector<Requirement> required; ///< of the mesh, or nothing is written
     int threads = 0;                   ///< 0: as many as there are
     bool quiet = false;

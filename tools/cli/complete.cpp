@@ -17,6 +17,7 @@
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
+#include "molsurf/surface/solver_files.h"
 #include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/whole_only.h"
 
@@ -119,19 +120,11 @@ std::string wordOf(const Call& call, const std::string& path)
 }
 
 /// The files that APBS reads, in a folder.
-std::vector<Output> solverFiles(const Call& call, const std::string& folder)
+std::vector<Output> outputsOfSolver(const Call& call, const std::string& folder)
 {
-    if (folder.find_first_of(" \t\"") != std::string::npos)
-        misuse("-o '" + folder + "': APBS reads no names with spaces, expected one without");
     std::vector<Output> files;
-    for (const Format& format : formatTable()) {
-        if (!(format.holds & Solver)) continue;
-        const std::string word = format.word;
-        std::string stem = inputStem(call.input) + ".";
-        std::replace(stem.begin(), stem.end(), ' ', '_');
-        files.push_back(
-            {(fs::path(folder) / ((word == "apbs.in" ? "" : stem) + word)).string(), &format});
-    }
+    for (const SolverFile& file : solverFiles())
+        files.push_back({solverPath(folder, call.input, file.word), findFormat(file.word)});
     return files;
 }
 
@@ -148,7 +141,7 @@ std::vector<Output> outputsOf(const Call& call)
             path == "-" ? path : fs::weakly_canonical(fs::absolute(path), ignored).string();
         if (!seen.insert(real).second) misuse("-o " + path + " is given twice");
         if (call.forApbs && isFolder(path)) {
-            for (Output& file : solverFiles(call, path)) outputs.push_back(std::move(file));
+            for (Output& file : outputsOfSolver(call, path)) outputs.push_back(std::move(file));
             continue;
         }
         const std::string word = wordOf(call, path);
@@ -218,10 +211,8 @@ void completeSolver(Call& call)
     call.atoms.charges = true;
     SurfaceSpec& surface = call.options;
     if (!call.has("surface") && surface.inset == 0.0) surface.kind = SurfaceKind::SolventExcluded;
-    if (surface.kind == SurfaceKind::SolventExcluded || surface.inset > 0.0) return;
-    call.warnings.push_back(std::string("--surface ") + nameOf(surface.kind) +
-                            ": its energy is another one than that of the solvent-excluded "
-                            "surface [hint: --surface ses, or --match ses]");
+    const std::string warning = withOptionNames(solverWarning(surface));
+    if (!warning.empty()) call.warnings.push_back(warning);
 }
 
 // Adds the fields and files that --for implies, and gives the least wall in Å, not in mm of the

@@ -32,11 +32,6 @@ void misuse(const std::string& message)
     throw Error(ErrorKind::Usage, message);
 }
 
-const char* nameOf(Walls walls)
-{
-    return walls == Walls::Outer ? "outer" : walls == Walls::Cavities ? "cavities" : "all";
-}
-
 using molsurf::nameOf;
 using namespace std::string_literals;
 
@@ -77,6 +72,28 @@ Option setting(const std::string& name, unsigned verbs)
         return o;
     }
     throw std::logic_error("no setting is named " + name);
+}
+
+/// The option of a row of pictures or files, or null.
+template<typename To>
+std::optional<Option> optionOf(const std::vector<SettingRow<To>>& rows, const std::string& name,
+                               unsigned verbs)
+{
+    const SettingRow<To>* row = findRow(rows, name);
+    if (!row) return std::nullopt;
+    Option o{row->name, 0, row->value, withOptionNames(row->text), row->preset, verbs, row->words};
+    o.set = row->set;
+    o.shownIn = row->shownIn;
+    return o;
+}
+
+/// The option of a row of pictures or files.
+/// @throws std::logic_error if there is none of this name
+Option fileOption(const std::string& name, unsigned verbs)
+{
+    if (const auto o = optionOf(pictureSettings(), name, verbs)) return *o;
+    if (const auto o = optionOf(fileSettings(), name, verbs)) return *o;
+    throw std::logic_error("no setting of files is named " + name);
 }
 
 /// A number in a range that the library does not check.
@@ -149,28 +166,6 @@ void setView(Call& call, const Values& values)
     if (!(call.verb & (Build | Batch)))
         wrongValue("view", "auto, a direction X,Y,Z or a FILE.view", view);
     call.viewed = view;
-}
-
-/// The words of --for.
-Values programNames()
-{
-    Values all = hostNames();
-    all.insert(all.begin(), "apbs");
-    return all;
-}
-
-void setScene(Call& call, const Values& values)
-{
-    call.forApbs = lowered(values.back()) == "apbs";
-    if (call.forApbs) return;
-    const auto scene = parseScene(values.back());
-    if (!scene)
-        wrongValue("for",
-                   "apbs, blender, blender4, houdini or usd, the last four perhaps with =mn-0.01, "
-                   "=mn-0.1, =nm or =UNITS_PER_Å",
-                   values.back(), didYouMean(values.back(), programNames()));
-    call.scene.host = scene->host;
-    call.scene.scale = scene->scale;
 }
 
 /// Option::file of a value that is a path.
@@ -370,15 +365,9 @@ OptionGroup surfaceOptions()
     return {"Surface",
             {setting("surface", structures), setting("voxel", structures), shownIn(Levels, levels),
              setting("blobbiness", structures), setting("fill-cavities", wholes | Compare),
-             shownIn(Triangles | VertexCurvatures | Stage | ColorChoices | Pixels,
-                     word("walls", "WORD",
-                          "closed pieces that meshes and pictures have: all; outer,\n"
-                          "without cavities; or cavities alone",
-                          Build, MOLSURF_OF(walls),
-                          std::vector{Walls::All, Walls::Outer, Walls::Cavities})),
-             setting("remesh", wholes | Convert), setting("density", wholes | Convert),
-             setting("adapt", wholes | Convert), setting("fields", surfaces), attributes,
-             shownIn(Grids, setting("vdb-half", surfaces)),
+             fileOption("walls", Build), setting("remesh", wholes | Convert),
+             setting("density", wholes | Convert), setting("adapt", wholes | Convert),
+             setting("fields", surfaces), attributes, shownIn(Grids, setting("vdb-half", surfaces)),
              shownIn(Numbers, setting("curvature-totals", wholes))}};
 }
 
@@ -434,9 +423,7 @@ OptionGroup groupOptions()
              setting("color", surfaces), setting("range", surfaces | Convert),
              setting("palette", surfaces | Convert), setting("value-of", surfaces),
              setting("flat-values", surfaces), setting("outward", surfaces),
-             shownIn(CutBorders, flag("crisp", "mesh files: triangles are cut where colours meet",
-                                      Build, MOLSURF_OF(crisp))),
-             shown}};
+             fileOption("crisp", Build), shown}};
 }
 
 OptionGroup areaOptions()
@@ -474,64 +461,27 @@ OptionGroup pocketOptions()
 
 OptionGroup sceneOptions()
 {
-    Option host{"for",
-                0,
-                "PROGRAM[=SCALE]",
-                "blender, blender4 (up to 4.5), houdini or usd: a .vdb with\n"
-                "density and Cd as that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
-                "units per Å; usd: a .usda beside the .vdb; apbs: -o FOLDER/ gets\n"
-                "its input, charges and maps",
-                "",
-                wholes,
-                programNames()};
-    host.set = setScene;
+    const auto numberOf = [](Option option, const auto& of) {
+        option.stored = [=](const Call& c) { return openvdb::DoubleMetadata(of(c)).copy(); };
+        return option;
+    };
+    Option host = fileOption("for", wholes), center = fileOption("center", wholes);
     host.stored = [](const Call& c) { return stored(c.forApbs ? "apbs" : nameOf(c.scene.host)); };
+    center.shownIn = 0; // pictures look the same
     return {
         "Scene",
-        {shownIn(SceneUnits | Solver, host),
-         shownIn(Grids, with(number("fog-density", "D",
-                                    "optical depth of an Å of fog at density 1 in the program,\n"
-                                    "in any unit; without it the values of density are 0 to 1",
-                                    "", wholes, 1e-6, 1e6, "a number from 1e-6 to 1e6",
-                                    MOLSURF_OF(scene.fogDensity)),
-                             [](Option& o) {
-                                 o.stored = [](const Call& c) {
-                                     return openvdb::DoubleMetadata(c.scene.fogDensity).copy();
-                                 };
-                             })),
-         kept(MOLSURF_OF(center), flag("center", "the middle of the surface comes to the origin",
-                                       wholes, MOLSURF_OF(center))),
-         shownIn(Millimetres,
-                 number("print-scale", "S", ".stl, .obj, .wrl, .3mf in mm, S of them per Å", "",
-                        wholes | Convert, 1e-6, 1e6, "mm per Å, from 1e-6 to 1e6",
-                        MOLSURF_OF(printScale))),
-         with(number("min-wall", "W", "thicken what is thinner than W mm; with --print-scale", "",
-                     wholes, 1e-300, 1e300, "a positive number of mm", MOLSURF_OF(wall)),
-              [](Option& o) {
-                  o.stored = [](const Call& c) {
-                      return openvdb::DoubleMetadata(c.options.minWall).copy();
-                  };
-              })}};
+        {host, numberOf(fileOption("fog-density", wholes), MOLSURF_OF(scene.fogDensity)),
+         kept(MOLSURF_OF(center), center), fileOption("print-scale", wholes | Convert),
+         numberOf(number("min-wall", "W", "thicken what is thinner than W mm; with --print-scale",
+                         "", wholes, 1e-300, 1e300, "a positive number of mm", MOLSURF_OF(wall)),
+                  MOLSURF_OF(options.minWall))}};
 }
 
 OptionGroup solverOptions()
 {
-    const auto constant = [](const char* name, const char* value, const char* text,
-                             const char* preset, double low, const auto& of) {
-        return shownIn(Solver, number(name, value, text, preset, Build, low, 1e6,
-                                      low > 0.0 ? "a number above 0" : "a number from 0 on", of));
-    };
     return {"Electrostatics",
-            {shownIn(Solver, ofFile(text("apbs-grid", "FILE.in",
-                                         "an input of APBS whose dime, glen and gcent are used;\n"
-                                         "without it the lattice is by pdb2pqr's rule psize",
-                                         Build, MOLSURF_OF(apbsInput)))),
-             constant("pdie", "E", "relative permittivity of the molecule", "2", 1e-6,
-                      MOLSURF_OF(dielectric.inside)),
-             constant("sdie", "E", "relative permittivity of the solvent", "78.54", 1e-6,
-                      MOLSURF_OF(dielectric.outside)),
-             constant("ion-conc", "C", "concentration of a 1:1 salt [mol/L]", "0", 0.0,
-                      MOLSURF_OF(dielectric.salt))}};
+            {ofFile(fileOption("apbs-grid", Build)), fileOption("pdie", Build),
+             fileOption("sdie", Build), fileOption("ion-conc", Build)}};
 }
 
 /// The words of styles and what they mean.
@@ -628,32 +578,21 @@ Option rulerOption()
                       rulerText);
 }
 
-/// The option of a setting of pictures.
-Option picture(const char* name, unsigned verbs)
-{
-    const PictureSetting& row = pictureSetting(name);
-    Option o{row.name, 0, row.value, withOptionNames(row.text), row.preset, verbs, row.words};
-    o.set = row.set;
-    return o;
-}
-
 OptionGroup pictureOptions()
 {
     constexpr unsigned draw = wholes | Convert | Compare;
-    Option view = picture("view", draw);
+    Option view = fileOption("view", draw);
     view.set = setView;
     view.file = [](const std::string& value) {
         return isViewName(value) ? std::size_t(0) : std::string::npos;
     };
-    const auto pixels = [](const char* name) { return shownIn(Pixels, picture(name, draw)); };
     return {"Picture",
-            {shownIn(Views, view), shownIn(Views, picture("up", draw)),
-             shownIn(Views, picture("turn", draw)), pixels("size"), pixels("background"),
-             shownIn(PlainColor, picture("plain-color", wholes | Convert)), pixels("style"),
-             shownIn(Pixels | ColorChoices, showOption()), labelOption(), rulerOption(),
-             panelOption(), shownIn(Pixels | ColorChoices, picture("opacity", draw)),
-             pixels("all-walls"), pixels("clip"), pixels("depth-cue"), pixels("legend"),
-             pixels("scale-bar"), pixels("dpi"),
+            {view, fileOption("up", draw), fileOption("turn", draw), fileOption("size", draw),
+             fileOption("background", draw), fileOption("plain-color", wholes | Convert),
+             fileOption("style", draw), shownIn(Pixels | ColorChoices, showOption()), labelOption(),
+             rulerOption(), panelOption(), fileOption("opacity", draw),
+             fileOption("all-walls", draw), fileOption("clip", draw), fileOption("depth-cue", draw),
+             fileOption("legend", draw), fileOption("scale-bar", draw), fileOption("dpi", draw),
              shownIn(Pixels, count("turntable", "N",
                                    "N pictures round the upright: name.0001.png, ..., or in\na "
                                    "film, such as name.mp4",

@@ -36,7 +36,7 @@ struct Option {
     /// Where in a value the path of a file begins that is read; npos: the value names none. Null:
     /// no value does.
     std::function<std::size_t(const std::string& value)> file = nullptr;
-    /// The formats that show it, as a set of Holds; 0: it is no matter of formats.
+    /// The formats that show it, as a set of holds::Content; 0: it is no matter of formats.
     unsigned shownIn = 0;
 };
 

@@ -61,7 +61,7 @@ std::vector<Pair> assemblyPairs()
          Excludes,
          {"pockets", "color=pocket", "show=pockets", "pore", "frames", "trajectory", "memory",
           "dry-run", "center", "color=potential"}},
-        {Holds(Grids | Volume),
+        {holds::Content(Grids | Volume),
          Excludes,
          {"by-symmetry"},
          ": it makes no grid of the whole [hint: --memory 8G in its place makes it in bricks]"},
@@ -126,7 +126,7 @@ std::vector<Pair> meshPairs()
     const auto ofMesh = [=](const char* option) {
         return Pair{option,
                     Needs,
-                    {{Holds(Triangles | Copies | Views | Pixels), "", "-o FILE.ply"}},
+                    {{holds::Content(Triangles | Copies | Views | Pixels), "", "-o FILE.ply"}},
                     ": it makes a mesh",
                     nothing};
     };

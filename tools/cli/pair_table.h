@@ -15,9 +15,9 @@ namespace molsurf::tool
 struct Thing {
     /// @param[in] typed  "color", or with a value "color=copy"
     Thing(const char* typed, const char* name = nullptr) : words(typed), title(name) {}
-    /// @param[in] some   what the file holds, as a set of Holds
+    /// @param[in] some   what the file holds, as a set of holds::Content
     /// @param[in] table  the table of areas that it has; "": any or none
-    Thing(Holds some, const char* table = "", const char* name = nullptr)
+    Thing(holds::Content some, const char* table = "", const char* name = nullptr)
         : words(table), title(name), holds(some)
     {
     }

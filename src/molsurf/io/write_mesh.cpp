@@ -266,20 +266,35 @@ void writeWrl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
 const std::vector<MeshFormat>& meshFormats()
 {
     using Title = MeshTitle;
+    using namespace holds;
+    constexpr unsigned curved = Triangles | Colors | CutBorders | VertexCurvatures;
+    constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
+    constexpr const char* ofSolvers = "mesh for tetgen, Gmsh";
     static const std::vector<MeshFormat> table = {
-        {"ply", [](const Mesh& m, const Title&, OutputFile& f) { writePly(m, f); }},
-        {"obj", [](const Mesh& m, const Title& t, OutputFile& f) { writeObj(m, f, t.unit); }},
-        {"stl", [](const Mesh& m, const Title& t, OutputFile& f) { writeStl(m, f, t.unit); }},
-        {"off", [](const Mesh& m, const Title&, OutputFile& f) { writeOff(m, f); }},
-        {"wrl", [](const Mesh& m, const Title& t, OutputFile& f) { writeWrl(m, f, t.unit); }},
-        {"vtk", [](const Mesh& m, const Title& t, OutputFile& f) { writeVtk(m, t.name, f); }},
-        {"vert", [](const Mesh& m, const Title&, OutputFile& f) { writeVert(m, f); }},
-        {"face", [](const Mesh& m, const Title&, OutputFile& f) { writeFace(m, f); }},
-        {"poly", [](const Mesh& m, const Title&, OutputFile& f) { writePoly(m, f); }},
-        {"msh", [](const Mesh& m, const Title&, OutputFile& f) { writeMsh4(m, f); }},
-        {"msh2", [](const Mesh& m, const Title&, OutputFile& f) { writeMsh2(m, f); }},
-        {"glb", [](const Mesh& m, const Title& t, OutputFile& f) { writeGlb(m, {t.name}, f); }},
-        {"3mf", [](const Mesh& m, const Title& t, OutputFile& f) {
+        {"ply", curved, "mesh", [](const Mesh& m, const Title&, OutputFile& f) { writePly(m, f); }},
+        {"obj", printed, "mesh",
+         [](const Mesh& m, const Title& t, OutputFile& f) { writeObj(m, f, t.unit); }},
+        {"stl", Triangles | Millimetres, "mesh",
+         [](const Mesh& m, const Title& t, OutputFile& f) { writeStl(m, f, t.unit); }},
+        {"off", Triangles | Colors | CutBorders, "mesh",
+         [](const Mesh& m, const Title&, OutputFile& f) { writeOff(m, f); }},
+        {"wrl", printed, "mesh",
+         [](const Mesh& m, const Title& t, OutputFile& f) { writeWrl(m, f, t.unit); }},
+        {"vtk", curved, "mesh",
+         [](const Mesh& m, const Title& t, OutputFile& f) { writeVtk(m, t.name, f); }},
+        {"vert", Triangles, "mesh as of MSMS",
+         [](const Mesh& m, const Title&, OutputFile& f) { writeVert(m, f); }},
+        {"face", Triangles, "mesh as of MSMS",
+         [](const Mesh& m, const Title&, OutputFile& f) { writeFace(m, f); }},
+        {"poly", Triangles, ofSolvers,
+         [](const Mesh& m, const Title&, OutputFile& f) { writePoly(m, f); }},
+        {"msh", Triangles, ofSolvers,
+         [](const Mesh& m, const Title&, OutputFile& f) { writeMsh4(m, f); }},
+        {"msh2", Triangles, ofSolvers,
+         [](const Mesh& m, const Title&, OutputFile& f) { writeMsh2(m, f); }},
+        {"glb", Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels,
+         "mesh", [](const Mesh& m, const Title& t, OutputFile& f) { writeGlb(m, {t.name}, f); }},
+        {"3mf", printed | Paint, "mesh", [](const Mesh& m, const Title& t, OutputFile& f) {
              write3mf(m, t.name, t.unit.perAngstrom, f);
          }}};
     return table;

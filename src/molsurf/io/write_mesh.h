@@ -5,6 +5,7 @@
 /// Mesh files. They hold the mesh and nothing else: no time, path or command line, so that the same
 /// mesh gives the same bytes.
 
+#include "molsurf/io/holds.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
 
@@ -67,6 +68,8 @@ struct MeshTitle {
 /// A format of mesh files.
 struct MeshFormat {
     const char* word; ///< how a file's name ends: "ply"
+    unsigned holds;   ///< of holds::Content
+    const char* help; ///< what a file is, for help texts
     /// @throws Error(ErrorKind::Output) if the file cannot be written
     void (*write)(const Mesh& mesh, const MeshTitle& title, OutputFile& file);
 };

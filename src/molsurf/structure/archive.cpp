@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -278,6 +279,18 @@ std::string readMember(const ArchiveMember& member, std::size_t maxBytes)
 {
     const std::lock_guard<std::mutex> lock(turn());
     return opened(member.archive).content(member.name, maxBytes);
+}
+
+std::string inputStem(const std::string& input)
+{
+    const auto member = memberOf(input);
+    std::filesystem::path name = std::filesystem::path(member ? member->name : input).filename();
+    for (const char* const packed : {".gz", ".bz2", ".xz"})
+        if (name.extension() == packed) {
+            name = name.stem();
+            break;
+        }
+    return name.stem().string();
 }
 
 } // namespace molsurf

@@ -32,4 +32,7 @@ std::vector<std::string> membersIn(const std::string& archive);
 /// @throws Error(ErrorKind::Input) as above, if there is none of that name, or it is larger
 std::string readMember(const ArchiveMember& member, std::size_t maxBytes);
 
+/// The name of an input without folder, .gz, .bz2 or .xz, and extension.
+std::string inputStem(const std::string& input);
+
 } // namespace molsurf

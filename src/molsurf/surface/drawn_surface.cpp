@@ -8,6 +8,7 @@
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/panels.h"
 #include "molsurf/picture/view.h"
+#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <map>
@@ -21,6 +22,17 @@ std::vector<Ball> placedBalls(const BallSet& atoms, const openvdb::Vec3d& origin
     std::vector<Ball> balls = atoms.balls;
     for (Ball& ball : balls) ball.center -= origin;
     return balls;
+}
+
+Mesh crispMesh(const Mesh& mesh, const ColorOwners& owners, const BallSet& atoms,
+               const SurfaceOptions& options, const Progress& progress)
+{
+    const KindRow& kind = rowOf(options.kind);
+    // The creases of a union are off by a voxel at most.
+    const double crease = kind.isUnion && !kind.hasOffset ? options.voxel : 0.0;
+    const bool ofValues = options.color == ColorBy::Value;
+    return withCrispBorders(mesh, owners, crease, ofValues ? atoms.labels->values->name : "",
+                            progress);
 }
 
 std::vector<MeshInstance> instancesOf(const BallSet& atoms, const Mesh& mesh, bool colored,
@@ -151,19 +163,18 @@ namespace
 /// its options say what it shows.
 void shareCamera(const std::vector<DrawnSurface>& surfaces, std::vector<DrawOptions>& shots)
 {
-    DrawOptions level = shots[0];
-    level.turn = 0.0; // each panel turns from there by its own options
-    const auto axes = viewAxes(surfaces[0].mesh, level);
+    DrawOptions unturned = shots[0];
+    unturned.turn = 0.0; // each panel turns from there by its own options
+    const auto axes = viewAxes(surfaces[0].mesh, unturned);
     PictureFrame largest{openvdb::Vec3d(0.0), 0.0, 0.0};
     std::vector<openvdb::Vec3d> centers;
     for (std::size_t n = 0; n < shots.size(); ++n) {
         DrawOptions& options = shots[n];
         if (!surfaces[n].ownEye) {
-            options.upright = openvdb::Vec3d(0.0);
+            options.upright = openvdb::Vec3d(0.0); // is in the axes, and would go before `up`
             options.up = axes[1];
             options.toEye = axes[2];
         }
-        options.turnable = options.turnable || options.turn != 0.0;
         const View view = chooseView(surfaces[n].mesh, options);
         centers.push_back(view.center);
         largest.width = std::max(largest.width, view.width * view.pixel);

@@ -43,6 +43,12 @@ struct DrawnSurface {
 /// The balls where they lie to the mesh.
 std::vector<Ball> placedBalls(const BallSet& atoms, const openvdb::Vec3d& origin);
 
+/// The mesh with triangles cut where colours meet.
+/// @param[in] owners   of the colours, where the mesh is
+/// @param[in] options  that decided the surface and its colours
+Mesh crispMesh(const Mesh& mesh, const ColorOwners& owners, const BallSet& atoms,
+               const SurfaceOptions& options, const Progress& progress);
+
 /// The copies of an assembly as nodes, each in a colour by which it can be told from its
 /// neighbours, or in one for all.
 /// @param[in] plain  that one, of a mesh without colours

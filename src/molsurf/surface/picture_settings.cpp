@@ -3,6 +3,7 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
+#include "molsurf/io/holds.h"
 #include "molsurf/picture/style.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/structure/text_fields.h"
@@ -22,27 +23,6 @@ namespace
 
 using Values = std::vector<std::string>;
 
-/// A number in a range, which `range` says in words.
-template<typename Of>
-PictureSetting number(const char* name, const char* value, std::string text, std::string preset,
-                      std::pair<double, double> limits, const char* range, const Of& of)
-{
-    return {name,
-            value,
-            std::move(text),
-            std::move(preset),
-            {},
-            numberSetter(name, limits.first, limits.second, range, of)};
-}
-
-template<typename Of>
-PictureSetting flag(const char* name, std::string text, const Of& of)
-{
-    return {name, nullptr, std::move(text),
-            "",   {},      [of](PictureSettings& to, const Values&) {
-                of(to) = true; }};
-}
-
 bool hasLength(const openvdb::Vec3d& way)
 {
     return way.length() > 0.0 && std::isfinite(way.length());
@@ -56,6 +36,7 @@ PictureSetting viewSetting()
             "\"A/63\"; FILE.view, as -o writes it; auto: the shortest\n"
             "extent toward the eye, the longest across",
             "auto",
+            holds::Views,
             {"auto"},
             [](PictureSettings& to, const Values& values) {
                 if (!takeView(values.back(), to.picture))
@@ -71,6 +52,7 @@ PictureSetting uprightSetting()
             "without it y, or z for a view along x or y, or of itself\n"
             "the normal of a membrane, where no view is asked for",
             "",
+            holds::Views,
             {},
             [](PictureSettings& to, const Values& values) {
                 const auto way = directionOf(values.back());
@@ -82,8 +64,8 @@ PictureSetting uprightSetting()
 
 PictureSetting sizeSetting()
 {
-    return {"size", "N", "width in pixels; the height follows the shape",
-            "1200", {},  countSetter("size", 16, 16384, MOLSURF_OF(picture.width))};
+    return {"size",        "N", "width in pixels; the height follows the shape",          "1200",
+            holds::Pixels, {},  countSetter("size", 16, 16384, MOLSURF_OF(picture.width))};
 }
 
 PictureSetting backgroundSetting()
@@ -92,6 +74,7 @@ PictureSetting backgroundSetting()
             "COLOR",
             "as #rrggbb or #rgb, a name such as black, or transparent",
             "#ffffff",
+            holds::Pixels,
             {"transparent"},
             [](PictureSettings& to, const Values& values) {
                 to.picture.transparent = lowered(values.back()) == "transparent";
@@ -106,6 +89,7 @@ PictureSetting plainColorSetting()
             "COLOR",
             "of a surface without `color`",
             "#8cb5de",
+            holds::PlainColor,
             {},
             [](PictureSettings& to, const Values& values) {
                 to.picture.plain = colorValue("plain-color", "", values.back());
@@ -123,6 +107,7 @@ PictureSetting styleSetting()
             "WORD",
             wrapped(joinWords(all, "; "), helpWidth),
             styleTable().front().word,
+            holds::Pixels,
             words,
             [words](PictureSettings& to, const Values& values) {
                 to.picture.style = findStyle(values.back());
@@ -132,38 +117,23 @@ PictureSetting styleSetting()
             }};
 }
 
-PictureSetting legendSetting()
-{
-    const std::vector<LegendChoice> choices = {LegendChoice::Auto, LegendChoice::On,
-                                               LegendChoice::Off};
-    PictureSetting row{"legend",
-                       "WORD",
-                       "on or off; auto: beside colours, if 600 pixels wide\n"
-                       "or more",
-                       nameOf(LegendChoice::Auto),
-                       {},
-                       wordSetter("legend", choices, MOLSURF_OF(legend))};
-    for (const LegendChoice choice : choices) row.words.push_back(nameOf(choice));
-    return row;
-}
-
 /// A note between places in space.
 PictureSetting noteSetting(const char* name, const char* value, const char* text,
                            NoteText (*parse)(const std::string& text))
 {
-    return {name, value, text, "", {}, [=](PictureSettings& to, const Values& values) {
-                for (const std::string& one : values) {
-                    const NoteText note = parse(one);
-                    const auto from = placeIn(note.places.front());
-                    const auto end = placeIn(note.places.back());
-                    if (!from || !end)
-                        wrongValue(name, std::string(value) + " within 1e6 Å of the origin", one);
-                    if (note.places.size() > 1 && *from == *end)
-                        wrongValue(name, "two places", one);
-                    to.picture.notes.push_back({*from, {}, note.text});
-                    if (note.places.size() > 1) to.picture.notes.back().to = *end;
-                }
-            }};
+    return {
+        name, value, text, "", holds::Pixels, {}, [=](PictureSettings& to, const Values& values) {
+            for (const std::string& one : values) {
+                const NoteText note = parse(one);
+                const auto from = placeIn(note.places.front());
+                const auto end = placeIn(note.places.back());
+                if (!from || !end)
+                    wrongValue(name, std::string(value) + " within 1e6 Å of the origin", one);
+                if (note.places.size() > 1 && *from == *end) wrongValue(name, "two places", one);
+                to.picture.notes.push_back({*from, {}, note.text});
+                if (note.places.size() > 1) to.picture.notes.back().to = *end;
+            }
+        }};
 }
 
 } // namespace
@@ -234,35 +204,46 @@ const std::vector<PictureSetting>& pictureSettings()
     static const std::vector<PictureSetting> all = {
         viewSetting(),
         uprightSetting(),
-        number("turn", "A", "turned by so many degrees about the upright", "0", {-1e9, 1e9},
-               "a number of degrees", MOLSURF_OF(picture.turn)),
+        numberRow<PictureSettings>(
+            {"turn", "A", "turned by so many degrees about the upright", "0"}, holds::Views,
+            {-1e9, 1e9, "a number of degrees"}, MOLSURF_OF(picture.turn)),
         sizeSetting(),
         backgroundSetting(),
         plainColorSetting(),
         styleSetting(),
-        number("opacity", "O", "of the surface, seen from the front", "1", {0.01, 1.0},
-               "a number from 0.01 to 1", MOLSURF_OF(picture.opacity)),
-        flag("all-walls", "`opacity` shows what is behind the nearest wall, too",
-             MOLSURF_OF(picture.allWalls)),
-        number("clip", "D",
-               "cuts away what is nearer to the eye than the middle\n"
-               "by more than D Å, and shows the inside",
-               "", {-1e6, 1e6}, "a number of Å", MOLSURF_OF(picture.clip)),
-        flag("depth-cue", "distant parts fade to the background", MOLSURF_OF(picture.depthCue)),
-        legendSetting(),
+        numberRow<PictureSettings>({"opacity", "O", "of the surface, seen from the front", "1"},
+                                   holds::Pixels | holds::ColorChoices,
+                                   {0.01, 1.0, "a number from 0.01 to 1"},
+                                   MOLSURF_OF(picture.opacity)),
+        switchRow<PictureSettings>("all-walls",
+                                   "`opacity` shows what is behind the nearest wall, too",
+                                   holds::Pixels, MOLSURF_OF(picture.allWalls)),
+        numberRow<PictureSettings>({"clip", "D",
+                                    "cuts away what is nearer to the eye than the middle\n"
+                                    "by more than D Å, and shows the inside",
+                                    ""},
+                                   holds::Pixels, {-1e6, 1e6, "a number of Å"},
+                                   MOLSURF_OF(picture.clip)),
+        switchRow<PictureSettings>("depth-cue", "distant parts fade to the background",
+                                   holds::Pixels, MOLSURF_OF(picture.depthCue)),
+        wordRow<PictureSettings>(
+            "legend", "on or off; auto: beside colours, if 600 pixels wide\nor more", holds::Pixels,
+            std::vector{LegendChoice::Auto, LegendChoice::On, LegendChoice::Off},
+            MOLSURF_OF(legend)),
         noteSetting("label", "X,Y,Z=TEXT", "a text at a place; repeats", labelText),
         noteSetting("ruler", "X,Y,Z..X,Y,Z", "a line between two places with its length; repeats",
                     rulerText),
-        flag("scale-bar", "a bar below the picture that shows a length", MOLSURF_OF(scaleBar)),
-        number("dpi", "N", "pixels an inch when it is printed; `size` stays", "", {1.0, 10000.0},
-               "a number from 1 to 10000", MOLSURF_OF(picture.dpi))};
+        switchRow<PictureSettings>("scale-bar", "a bar below the picture that shows a length",
+                                   holds::Pixels, MOLSURF_OF(scaleBar)),
+        numberRow<PictureSettings>(
+            {"dpi", "N", "pixels an inch when it is printed; `size` stays", ""}, holds::Pixels,
+            {1.0, 10000.0, "a number from 1 to 10000"}, MOLSURF_OF(picture.dpi))};
     return all;
 }
 
 const PictureSetting& pictureSetting(const std::string& name)
 {
-    for (const PictureSetting& row : pictureSettings())
-        if (row.name == name) return row;
+    if (const PictureSetting* row = findRow(pictureSettings(), name)) return *row;
     throw Error(ErrorKind::Usage, "no option of pictures is named " + inQuotes(name));
 }
 

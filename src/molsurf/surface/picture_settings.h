@@ -8,6 +8,7 @@
 #include "molsurf/color/crisp_borders.h"
 #include "molsurf/options.h"
 #include "molsurf/picture/draw_mesh.h"
+#include "molsurf/surface/setting_row.h"
 
 #include <functional>
 #include <memory>
@@ -33,17 +34,8 @@ struct PictureSettings {
     bool drawsLegend() const;
 };
 
-/// An option of pictures.
-struct PictureSetting {
-    const char* name;
-    const char* value; ///< its name in help texts; null: the option is a switch
-    std::string text;  ///< of help, with names of options in backticks
-    std::string preset;
-    std::vector<std::string> words; ///< that it takes; empty: others
-    /// @param[in] values  the last one counts; of labels and rulers all are added
-    /// @throws Error(ErrorKind::Usage) if it is wrong
-    std::function<void(PictureSettings& to, const std::vector<std::string>& values)> set;
-};
+/// An option of pictures. Labels and rulers add all of their values; of others the last one counts.
+using PictureSetting = SettingRow<PictureSettings>;
 
 /// All of them, in the order of help texts.
 const std::vector<PictureSetting>& pictureSettings();

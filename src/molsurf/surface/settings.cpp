@@ -285,6 +285,8 @@ std::vector<Setting> atomSettings()
              of(&SelectOptions::hetero), Hetero::All),
         flag("no-hetero", "drop all ligands and ions", of(&SelectOptions::hetero), Hetero::None),
         flag("waters", "keep waters", of(&SelectOptions::waters)),
+        flag("charges", "the charges of all atoms come along, for the files of APBS",
+             of(&SelectOptions::charges)),
         changed(text("radii", "SET", "van der Waals radii: a name of `listRadii`, or a file", "",
                      of(&SelectOptions::radii)),
                 [](Setting& row) {
@@ -331,6 +333,13 @@ std::vector<Setting> surfaceSettings()
                       number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
                              MOLSURF_OF(options.blobbiness)))),
         flag("fill-cavities", "drop the inner walls", MOLSURF_OF(options.fillCavities)),
+        changed(number("min-wall", "W", "thicken what is thinner than W Å, for a print",
+                       MOLSURF_OF(options.minWall)),
+                [](Setting& row) {
+                    row.preset = "";
+                    row.set = numberSetter("min-wall", 1e-300, 1e300, "a positive number of Å",
+                                           MOLSURF_OF(options.minWall));
+                }),
         fieldSetting(),
         flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
              MOLSURF_OF(options.halfFloats)),

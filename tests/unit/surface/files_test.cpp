@@ -8,6 +8,9 @@
 
 #include <openvdb/io/File.h>
 
+#include <algorithm>
+#include <fstream>
+
 namespace molsurf::test
 {
 namespace
@@ -85,6 +88,114 @@ TEST(Files, DrawASurfaceWithItsLegend)
     EXPECT_HAS(errorWith("sise", "15"), "no option of pictures is named");
 }
 
+/// The box of a mesh.
+openvdb::BBoxd boxOf(const Mesh& mesh)
+{
+    openvdb::BBoxd box;
+    for (const openvdb::Vec3f& p : mesh.positions) box.expand(openvdb::Vec3d(p));
+    return box;
+}
+
+TEST(Files, HoldMeshesAsSettingsSay)
+{
+    const Colored made;
+    const Folder folder;
+    const ShownSurface shown{&made.atoms, &made.surface, &made.options, ""};
+    using Words = std::vector<std::pair<std::string, std::string>>;
+    const auto read = [&](const std::string& name, const Words& settings) {
+        writeSurface({shown}, folder / name, settings);
+        return readMesh(folder / name);
+    };
+    const Mesh all = read("a.ply", {}), crisp = read("a.ply", {{"crisp", ""}});
+    EXPECT_EQ(all.triangles.size(), made.surface.mesh.triangles.size());
+    EXPECT_GT(crisp.triangles.size(), all.triangles.size());
+    const Mesh outer = read("a.obj", {{"walls", "outer"}});
+    const Mesh cavities = read("a.ply", {{"walls", "cavities"}, {"center", ""}});
+    EXPECT_EQ(outer.triangles.size() + cavities.triangles.size(), all.triangles.size());
+    EXPECT_LT(cavities.triangles.size(), outer.triangles.size());
+    EXPECT_LT(boxOf(cavities).getCenter().length(), 1e-5);
+    EXPECT_GT(boxOf(outer).getCenter().length(), 1.0);
+    const Mesh printed = read("a.stl", {{"print-scale", "0.5"}});
+    EXPECT_LT((boxOf(printed).extents() - 0.5 * boxOf(all).extents()).length(), 1e-4);
+    writeSurface({shown}, folder / "a.glb", {{"for", "blender=0.25"}, {"plain-color", "#010203"}});
+    EXPECT_HAS(contentOf(folder / "a.glb"), "0.25");
+    const auto errorWith = [&](const std::string& name, const Words& settings) {
+        return errorOf(ErrorKind::Usage, [&] { read(name, settings); });
+    };
+    EXPECT_HAS(errorWith("b.stl", {{"crisp", ""}}), "`crisp`: ");
+    EXPECT_HAS(errorWith("b.ply", {{"print-scale", "2"}}), "b.ply does not show it");
+    EXPECT_HAS(errorWith("b.ply", {{"size", "100"}}), "`size`: ");
+    EXPECT_HAS(errorWith("b.png", {{"center", ""}}), "`center`: ");
+    EXPECT_HAS(errorWith("b.json", {{"walls", "outer"}}), "`walls`: ");
+    EXPECT_HAS(errorWith("b.stl", {{"walls", "inner"}}), "expected all or outer or cavities");
+    EXPECT_HAS(errorWith("b.xyz", {}), "expected a name that ends in .ply");
+    EXPECT_HAS(errorWith("b.ply", {{"sise", "1"}}), "is named");
+    EXPECT_HAS(errorOf(ErrorKind::Usage,
+                       [&] {
+                           writeSurface({shown, shown}, folder / "b.ply");
+                       }),
+               "expected one surface, got 2");
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.glb", "a.obj", "a.ply", "a.stl"}));
+}
+
+TEST(Files, MoveAndFogALevelSet)
+{
+    Colored made;
+    made.options.fields = {"density"};
+    made.surface = makeSurface(made.atoms, made.options);
+    const Folder folder;
+    const ShownSurface shown{&made.atoms, &made.surface, &made.options, ""};
+    writeSurface({shown}, folder / "a.vdb");
+    writeSurface({shown}, folder / "b.vdb",
+                 {{"for", "houdini=0.5"}, {"center", ""}, {"fog-density", "0.2"}});
+    const auto [plain, one] = levelSetIn(folder / "a.vdb");
+    const auto [moved, half] = levelSetIn(folder / "b.vdb");
+    EXPECT_EQ(half / one, 0.5);
+    const openvdb::Coord voxel(3, 4, 5);
+    const openvdb::Vec3d middle = boxOf(made.surface.mesh).getCenter();
+    EXPECT_LT((2.0 * moved->indexToWorld(voxel) + middle - plain->indexToWorld(voxel)).length(),
+              1e-9);
+    openvdb::io::File file(folder / "b.vdb");
+    file.open();
+    float most = 0.0f;
+    const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid("density"));
+    for (auto value = density->cbeginValueOn(); value; ++value) most = std::max(most, *value);
+    EXPECT_FLOAT_EQ(most, 0.4f); // of a unit, 2 Å
+}
+
+/// Two charges in a ball: the files of APBS come all or none.
+TEST(Files, HoldWhatApbsReads)
+{
+    const Folder folder;
+    std::ofstream(folder / "ion.pqr") << "ATOM 1 C ION 1 0.0 0.0 0.0 1.0 2.0\n"
+                                         "ATOM 2 C ION 2 3.0 0.0 0.0 -0.5 1.0\n";
+    SelectOptions select;
+    select.charges = true;
+    SurfaceOptions options;
+    options.kind = SurfaceKind::SolventExcluded;
+    BallSet atoms = readAtoms(folder / "ion.pqr", select);
+    MolecularSurface surface = makeSurface(atoms, options);
+    surface.report.input = "my ion.pqr";
+    const ShownSurface shown{&atoms, &surface, &options, ""};
+    const std::string run = folder / "run";
+    writeSurface({shown}, run, {{"for", "apbs"}, {"pdie", "3"}, {"ion-conc", "0.1"}});
+    const std::string input = contentOf(run + "/apbs.in");
+    EXPECT_HAS(input, "pdie 3");
+    EXPECT_HAS(input, "conc 0.1");
+    EXPECT_HAS(input, run + "/my_ion.dielx.dx");
+    EXPECT_HAS(contentOf(run + "/my_ion.charges.pqr"), "-0.5");
+    const auto errorWith = [&](const std::vector<std::pair<std::string, std::string>>& more) {
+        std::vector<std::pair<std::string, std::string>> settings = {{"for", "apbs"}};
+        settings.insert(settings.end(), more.begin(), more.end());
+        return errorOf(ErrorKind::Usage, [&] { writeSurface({shown}, folder / "run2", settings); });
+    };
+    EXPECT_HAS(errorWith({{"pdie", "0"}}), "`pdie`: expected a number above 0");
+    EXPECT_HAS(errorWith({{"walls", "outer"}}), "`walls`: ");
+    atoms.charges.reset();
+    EXPECT_HAS(errorWith({}), "with their `charges`");
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"ion.pqr", "run"}));
+}
+
 /// Legends of one scale are one, and others have the name of their surface.
 TEST(DrawnSurface, HasALegendForEachScale)
 {
@@ -153,12 +264,12 @@ TEST(Files, WriteAPageThatNamesTheAtoms)
     writePicture(made.atoms, made.surface, made.options, folder / "crambin.html");
     const std::string page = contentOf(folder / "crambin.html");
     EXPECT_HAS(page, "<title>crambin");
-    EXPECT_HAS(page, "TYR");
+    EXPECT_HAS(page, "\"TYR\"");
     EXPECT_HAS(page, "Element");
     BallSet nameless = made.atoms;
     nameless.names.reset();
     writePicture(nameless, made.surface, made.options, folder / "crambin.html");
-    EXPECT_EQ(contentOf(folder / "crambin.html").find("TYR"), std::string::npos);
+    EXPECT_EQ(contentOf(folder / "crambin.html").find("\"TYR\""), std::string::npos);
     const ShownSurface first{&made.atoms, &made.surface, &made.options, "first layer"};
     ShownSurface second = first;
     second.name = "second layer";

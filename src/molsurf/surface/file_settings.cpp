@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/file_settings.h"
+
+#include "molsurf/io/holds.h"
+#include "molsurf/mesh/measure.h"
+#include "molsurf/mesh/specks.h"
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Values = std::vector<std::string>;
+
+/// The programs whose files have conventions of their own.
+Values programNames()
+{
+    Values all = hostNames();
+    all.insert(all.begin(), "apbs");
+    return all;
+}
+
+FileSetting programSetting()
+{
+    return {"for",
+            "PROGRAM[=SCALE]",
+            "blender, blender4 (up to 4.5), houdini or usd: a .vdb with\n"
+            "density and Cd as that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
+            "units per Å; usd: a .usda beside the .vdb; apbs: -o FOLDER/ gets\n"
+            "its input, charges and maps",
+            "",
+            holds::SceneUnits | holds::Solver,
+            programNames(),
+            [](FileSettings& to, const Values& values) {
+                to.forApbs = lowered(values.back()) == "apbs";
+                if (to.forApbs) return;
+                const auto scene = parseScene(values.back());
+                if (!scene)
+                    wrongValue("for",
+                               "apbs, blender, blender4, houdini or usd, the last four perhaps "
+                               "with =mn-0.01, =mn-0.1, =nm or =UNITS_PER_Å",
+                               values.back(), didYouMean(values.back(), programNames()));
+                to.scene.host = scene->host;
+                to.scene.scale = scene->scale;
+            }};
+}
+
+FileSetting latticeSetting()
+{
+    return {"apbs-grid",
+            "FILE.in",
+            "an input of APBS whose dime, glen and gcent are used;\n"
+            "without it the lattice is by pdb2pqr's rule psize",
+            "",
+            holds::Solver,
+            {},
+            [](FileSettings& to, const Values& values) { to.apbsInput = values.back(); }};
+}
+
+/// A constant of the Poisson-Boltzmann equation, from `low` on.
+template<typename Of>
+FileSetting constantSetting(const char* name, const char* value, const char* text,
+                            const char* preset, double low, const Of& of)
+{
+    return numberRow<FileSettings>(
+        {name, value, text, preset}, holds::Solver,
+        {low, 1e6, low > 0.0 ? "a number above 0" : "a number from 0 on"}, of);
+}
+
+} // namespace
+
+const char* nameOf(Walls walls)
+{
+    return walls == Walls::Outer ? "outer" : walls == Walls::Cavities ? "cavities" : "all";
+}
+
+const std::vector<FileSetting>& fileSettings()
+{
+    static const std::vector<FileSetting> all = {
+        wordRow<FileSettings>("walls",
+                              "closed pieces that meshes and pictures have: all; outer,\n"
+                              "without cavities; or cavities alone",
+                              holds::Triangles | holds::VertexCurvatures | holds::Stage |
+                                  holds::ColorChoices | holds::Pixels,
+                              std::vector{Walls::All, Walls::Outer, Walls::Cavities},
+                              MOLSURF_OF(walls)),
+        switchRow<FileSettings>("crisp", "mesh files: triangles are cut where colours meet",
+                                holds::CutBorders, MOLSURF_OF(crisp)),
+        programSetting(),
+        numberRow<FileSettings>({"fog-density", "D",
+                                 "optical depth of an Å of fog at density 1 in the program,\n"
+                                 "in any unit; without it the values of density are 0 to 1",
+                                 ""},
+                                holds::Grids, {1e-6, 1e6, "a number from 1e-6 to 1e6"},
+                                MOLSURF_OF(scene.fogDensity)),
+        switchRow<FileSettings>("center", "the middle of the surface comes to the origin",
+                                holds::Grids | holds::Triangles | holds::VertexCurvatures,
+                                MOLSURF_OF(center)),
+        numberRow<FileSettings>(
+            {"print-scale", "S", ".stl, .obj, .wrl, .3mf in mm, S of them per Å", ""},
+            holds::Millimetres, {1e-6, 1e6, "mm per Å, from 1e-6 to 1e6"}, MOLSURF_OF(printScale)),
+        latticeSetting(),
+        constantSetting("pdie", "E", "relative permittivity of the molecule", "2", 1e-6,
+                        MOLSURF_OF(dielectric.inside)),
+        constantSetting("sdie", "E", "relative permittivity of the solvent", "78.54", 1e-6,
+                        MOLSURF_OF(dielectric.outside)),
+        constantSetting("ion-conc", "C", "concentration of a 1:1 salt [mol/L]", "0", 0.0,
+                        MOLSURF_OF(dielectric.salt))};
+    return all;
+}
+
+void keepWalls(Walls walls, const Progress& progress, Mesh& mesh)
+{
+    if (walls == Walls::All || mesh.triangles.empty()) return; // no file has a mesh
+    const MeshPieces pieces = piecesOf(mesh, progress);
+    std::vector<char> gone;
+    for (const PieceMeasure& piece : pieces.measures)
+        gone.push_back((piece.volume < 0.0) != (walls == Walls::Cavities));
+    removePieces(pieces, gone, mesh);
+    if (mesh.triangles.empty())
+        throw Error(ErrorKind::Input, "`walls` cavities: the surface has no cavity");
+}
+
+} // namespace molsurf

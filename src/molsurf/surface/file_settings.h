@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The options of files but pictures, a row each: the command line and Python's save() take them.
+
+#include "molsurf/io/scene.h"
+#include "molsurf/io/write_apbs.h"
+#include "molsurf/io/write_mesh.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
+#include "molsurf/surface/setting_row.h"
+
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The closed pieces of the surface that meshes and pictures have.
+enum class Walls { All, Outer, Cavities };
+
+/// Their words: all, outer, cavities.
+const char* nameOf(Walls walls);
+
+/// How files hold a surface.
+struct FileSettings {
+    bool crisp = false; ///< mesh files have the borders between colours cut
+    Walls walls = Walls::All;
+    Scene scene;             ///< of the .vdb and the node of the .glb
+    bool forApbs = false;    ///< a folder gets the files that APBS reads
+    bool center = false;     ///< the middle of the surface comes to the origin
+    double printScale = 0.0; ///< of .stl, .obj, .wrl and .3mf [mm/Å]; 0: they are in Å
+    std::string apbsInput;   ///< whose lattice is used; empty: that of gridAround()
+    Dielectric dielectric;
+
+    /// The unit of the formats that are printed from.
+    LengthUnit printUnit() const
+    {
+        return printScale > 0.0 ? LengthUnit{printScale, "mm"} : LengthUnit{};
+    }
+};
+
+/// An option of files.
+using FileSetting = SettingRow<FileSettings>;
+
+/// All of them, in the order of help texts.
+const std::vector<FileSetting>& fileSettings();
+
+/// Removes the closed pieces that are not wanted: by the sign of their volume they are cavities.
+/// @throws Error(ErrorKind::Input) if none stays
+void keepWalls(Walls walls, const Progress& progress, Mesh& mesh);
+
+} // namespace molsurf

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/solver_files.h"
+
+#include "molsurf/core/words.h"
+#include "molsurf/error.h"
+#include "molsurf/selection/point_charges.h"
+#include "molsurf/structure/archive.h"
+#include "molsurf/surface/compare.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace molsurf
+{
+
+namespace
+{
+
+template<int axis>
+void writeMap(const SolverRun& run, const Progress& progress, OutputFile& file)
+{
+    const Spline spline = splineThrough(run.levelSet, progress);
+    writeDielectricMap({run.levelSet, spline}, run.grid, axis, run.dielectric, file);
+}
+
+void writeIons(const SolverRun& run, const Progress&, OutputFile& file)
+{
+    writeIonMap(run.atoms.balls, run.grid, run.dielectric.ionRadius, file);
+}
+
+void writeCharges(const SolverRun& run, const Progress&, OutputFile& file)
+{
+    writePqr(*run.atoms.charges, file);
+}
+
+void writeInput(const SolverRun& run, const Progress&, OutputFile& file)
+{
+    const ApbsFiles files{run.pathOf("charges.pqr"),
+                          run.pathOf("kappa.dx"),
+                          {run.pathOf("dielx.dx"), run.pathOf("diely.dx"), run.pathOf("dielz.dx")}};
+    writeApbsInput("vdb_molsurf: " + run.title, files, run.grid, run.dielectric, file);
+}
+
+} // namespace
+
+const std::vector<SolverFile>& solverFiles()
+{
+    static const std::vector<SolverFile> all = {
+        {"dielx.dx", writeMap<0>}, {"diely.dx", writeMap<1>},     {"dielz.dx", writeMap<2>},
+        {"kappa.dx", writeIons},   {"charges.pqr", writeCharges}, {"apbs.in", writeInput}};
+    return all;
+}
+
+std::string solverPath(const std::string& folder, const std::string& input, const std::string& word)
+{
+    if (folder.find_first_of(" \t\"") != std::string::npos)
+        throw Error(ErrorKind::Usage, "'" + folder +
+                                          "': APBS reads no names with spaces, expected a folder "
+                                          "without");
+    std::string stem = inputStem(input) + ".";
+    std::replace(stem.begin(), stem.end(), ' ', '_');
+    return (std::filesystem::path(folder) / ((word == "apbs.in" ? "" : stem) + word)).string();
+}
+
+ApbsGrid solverGrid(const std::string& apbsInput, const BallSet& atoms)
+{
+    const ApbsGrid grid =
+        apbsInput.empty() ? gridAround(*atoms.charges) : readApbsGrid(apbsInput, *atoms.charges);
+    checkCovers(grid, atoms.balls);
+    return grid;
+}
+
+std::string solverWarning(const SurfaceSpec& surface)
+{
+    if (surface.kind == SurfaceKind::SolventExcluded || surface.inset > 0.0) return {};
+    return std::string("`surface` ") + nameOf(surface.kind) +
+           ": its energy is another one than that of the solvent-excluded surface [hint: "
+           "`surface` ses, or `match` ses]";
+}
+
+} // namespace molsurf
