@@ -1,0 +1,314 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MPL-2.0
+"""Summaries of all kinds of files that runs on small molecules write, and those that they have to have.
+
+    VDB_MOLSURF=build-release/tools/vdb_molsurf tests/cli/reference.py [--renew] [WORD...]
+
+Runs the cases with one of the words in their commands, or all, and compares what they write with tests/reference.json.
+--renew takes what is written now: look at the difference before it is committed, and say in the commit why it is right.
+"""
+
+import concurrent.futures
+import json
+import math
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import zipfile
+import zlib
+
+from tool import ROOT, TOOL, read_png
+
+VALUES = ROOT / "tests" / "reference.json"
+# Sums may differ by this share of the sum of absolute values: processors and compilers round in other places.
+TOLERANCE = 2e-6
+# What no two runs share, and residuals of the size of rounding.
+ASIDE = {"seconds", "peak_memory_bytes", "command", "commit", "input_sha256", "threads", "version", "total_seconds", "max_residual",
+         "gradient_share", "max_speed", "unsettled_share", "displacement_rms", "displacement_tail", "mean_displacement"}
+
+
+def atoms(*rows):
+    return "".join(" ".join(f"{value:.6g}" for value in row) + "\n" for row in rows)
+
+
+def ring(count, edge, radius=1.7):
+    turn = 2 * math.pi / count
+    across = edge / 2 / math.sin(turn / 2)
+    return [(across * math.cos(turn * k), across * math.sin(turn * k), 0, radius) for k in range(count)]
+
+
+def windows(count, edge):
+    """A plane net of squares whose films a probe nearly passes."""
+    return [(edge * i / 2, edge * j / 2, 0, 1.7) for i in range(2 * count + 1) for j in range(2 * count + 1) if i % 2 == 0 or j % 2 == 0]
+
+
+def shell(count, radius):
+    """Atoms spread over a sphere, which keep a void."""
+    golden = math.pi * (3 - math.sqrt(5))
+    heights = [1 - (2 * k + 1) / count for k in range(count)]
+    return [(radius * math.sqrt(1 - z * z) * math.cos(golden * k), radius * math.sqrt(1 - z * z) * math.sin(golden * k), radius * z, 1.7)
+            for k, z in enumerate(heights)]
+
+
+def tube(rings, across):
+    return [(across * math.cos(math.pi * (k + i % 2 / 2) / 4), across * math.sin(math.pi * (k + i % 2 / 2) / 4), 1.5 * i, 1.6)
+            for i in range(rings) for k in range(8)]
+
+
+# Molecules that the commands read.
+FILES = {
+    "two.xyzr": atoms((0, 0, 0, 1.7), (2.9, 0.4, 0.1, 1.5)),
+    "apart.xyzr": atoms((0, 0, 0, 1.7), (4.1, 0.2, 0, 1.7), (9, 0, 0.5, 1.2)),
+    "ring4.xyzr": atoms(*ring(4, 4.6), (14, 1, 2, 1.5)),
+    "ring6.xyzr": atoms(*ring(6, 3.9)),
+    "windows.xyzr": atoms(*windows(2, 5.9)),
+    "shell.xyzr": atoms(*shell(60, 5.5)),
+    "tube.xyzr": atoms(*tube(8, 3.6)),
+    "ion.pqr": "ATOM 1 C ION 1 0.0 0.0 0.0 1.0 2.0\nATOM 2 C ION 2 3.0 0.5 0.0 -0.5 1.0\nATOM 3 N ION 2 3.9 0.5 0.7 -0.1 0.0\n",
+    "list.txt": "two.xyzr\napart.xyzr\nring6.xyzr\n",
+    "groups.txt": "front resid 1-20 #ff8800\nback resid 21-46 teal\n",
+}
+
+C, D, A, S = "@1crn.pdb --voxel 1", "@1a8o.cif.gz --assembly 1 --voxel 1", "@1ubq.pdb --voxel 1", "@selections.pdb --voxel 0.7"
+PICTURE = f"{C} --surface ses --size 160 -o a.png"
+EVERY = "-o a.vdb -o a.ply -o a.json"
+
+# Commands that belong together, in a folder of their own; @ names a file of tests/data.
+CASES = [[f"{name} {more} {EVERY}"] for name, more in [
+    ("two.xyzr", "--voxel 0.3"), ("apart.xyzr", "--voxel 0.4"), ("ring4.xyzr", "--voxel 0.5"), ("ring6.xyzr", "--voxel 0.4"),
+    ("windows.xyzr", "--voxel 0.5"), ("shell.xyzr", "--voxel 0.6"), ("tube.xyzr", "--voxel 0.6"), ("tube.xyzr", "--voxel 0.5 --epsilon 0.25"),
+    ("shell.xyzr", "--voxel 0.7 --fill-cavities"), ("ring4.xyzr", "--surface smooth-sas --voxel 0.5"),
+    ("two.xyzr", "--surface gaussian --blobbiness 1.8 --voxel 0.4"), ("ring6.xyzr", "--match ses --voxel 0.5"),
+    ("ring4.xyzr", "--lambda 0.03 --voxel 0.5"), ("ring4.xyzr", "--lambda 0.08 --voxel 0.5"), ("two.xyzr", "--flow newton --voxel 0.4"),
+    ("two.xyzr", "--flow paper --max-steps 30 --voxel 0.5"), ("two.xyzr", "--regularizer area --lambda 0.2 --voxel 0.5"),
+    ("apart.xyzr", "--spline-level 1 --fields all --curvature-totals --voxel 0.5"), ("shell.xyzr", "--surface ses --voxel 0.7"),
+    ("shell.xyzr", "--surface sas --fields sas,density --voxel 0.7"), ("ring4.xyzr", "--surface vdw --voxel 0.5 --vdb-half"),
+    ("ring6.xyzr", "--resolution 5 --match-volume --voxel 1"), ("two.xyzr", "--remesh 0.6 --adapt 0.05 --voxel 0.4"),
+    ("two.xyzr", "--density 4 --surface ses --voxel 0.4"), ("windows.xyzr", "--surface ses --voxel 0.6 --probe 1.2"),
+]] + [
+    [f"{C} --fields all --color chain --curvature-totals {EVERY} -o a.obj -o a.stl -o a.off -o a.wrl -o a.vtk -o a.dx -o a.mrc"],
+    [f"{C} --surface ses -o a.vert -o a.face -o a.poly -o a.msh -o a.msh2 -o a.3mf -o a.usda -o a.cxc -o a.glb"],
+    [f"{C} --surface ses --color element --crisp -o a.ply -o a.obj -o a.legend.svg -o a.pml"],
+    [f"{C} --surface sas --areas atoms,residues,contacts -o a.json -o a.atoms.csv -o a.residues.csv -o a.contacts.csv -o a.cif"],
+    ["@1crn.pdb --surface ses --walls cavities --voxel 0.7 -o a.ply -o a.msh", f"{C} --walls outer --center --print-scale 0.5 --min-wall 2 -o b.stl"],
+    [f"{C} --color bfactor --palette cividis --flat-values -o a.ply -o a.legend.svg", "@selections.pqr --color charge --range -1,1 --outward 2 -o b.ply"],
+    [f"{C} --color {color} --surface vdw -o {color}.ply" for color in ("residue", "element", "radius", "depth", "mean-curvature", "hydrophobicity")],
+    [f"{C} --surface {kind} -o {kind}.forces.csv" for kind in ("ses", "sas", "vdw", "variational", "smooth-sas")],
+    ["ring4.xyzr --voxel 0.5 -o a.forces.csv"],
+    [f"{C} --groups groups.txt --color group --split group --fields group_id {EVERY}"],
+    [f"{D} --group-by copy --interfaces --surface sas -o a.json -o a.interfaces.csv", f"{D} --group-by chain --surface-of A=ses -o b.json -o b.ply"],
+    [f"{D} --by-symmetry --surface ses --color chain -o a.ply -o a.glb -o a.json", f"{D} --by-symmetry --weld -o b.stl -o b.json"],
+    [f"{D} --instances --lod 1.5,3 --surface vdw --color copy -o a.glb -o a.usda -o a.view".replace(" --voxel 1", "")],
+    [f"{D} --coarse residue --surface sas -o a.json -o a.stl", f"{D} --copies 2 --resolution 6 -o b.json -o b.ply"],
+    [f"{A} --pockets -o a.json -o a.pockets.csv -o a.pockets.ply --fields pocket_id,pocket_depth -o a.vdb"],
+    ["@1grm.pdb.gz --pore auto --voxel 1 -o a.pore.csv -o a.json -o a.pore.svg -o a.pore.ply"],
+    [f"{S} --altloc all --hetero --waters {EVERY}", f"{S} --no-hydrogens --radii protor --surface ses -o b.json -o b.atoms.csv"],
+    ["@1d3z.pdb.gz --voxel 1.5 --frames 1-3 --fields v --fps 10 -o f.vdb -o f.csv -o f.json"],
+    ["@1d3z.pdb.gz --trajectory @1d3z.xtc --frames 2-3 --voxel 1.5 -o f.csv -o f.glb"],
+    ["ion.pqr --for apbs --pdie 3 --sdie 70 --ion-conc 0.1 --voxel 0.6 -o run/"],
+    [f"{C} --for blender=0.1 --fog-density 0.2 --color chain -o a.vdb", f"{C} --for usd --center -o b.vdb -o b.glb"],
+    ["compare @1crn.pdb @1ubq.pdb --voxel 1 -o c.ply -o c.json", f"{C} --surface ses --fields spline -o a.vdb",
+     "convert a.vdb --fields mean_curvature -o b.ply -o b.json", "convert a.vdb --remesh 1.2 -o d.obj"],
+    [f"bricks plan {C} --surface ses --bricks 2 -o p.json", "bricks run p.json 1", "bricks run p.json 2", "bricks merge p.json -o m.ply -o m.json"],
+    [f"bricks plan {C} --bricks 2 --steps 2 -o p.json", "bricks run p.json 1", "bricks run p.json 2", "bricks merge p.json -o m.ply -o m.json"],
+    ["batch list.txt --voxel 1 -O out --formats ply,json"],
+    [PICTURE, f"{C} --color chain --style outline --depth-cue --clip 2 --legend on --scale-bar --size 200 -o b.png"],
+    [f"{C} --color element --size 300 --panel ses --panel 1,0,0 --label A/10=here --ruler A/1..A/40 --show A/5-9=sticks --opacity 0.4 -o a.png"],
+    [f"{C} --color bfactor --view A/20 --up 0,1,1 --turn 20 --background black --show spheres --opacity 0.5 --all-walls --size 200 -o a.png -o a.view"],
+    [f"{C} --surface ses --color element --panel vdw -o a.html"],
+]
+
+
+def sums(values):
+    """Count, sum, sum of absolute values and a sum with weights by place, which changes when values change places."""
+    weights = (1 + k * 0.618034 % 1 for k in range(len(values)))
+    return [len(values), math.fsum(values), math.fsum(map(abs, values)), math.fsum(w * v for w, v in zip(weights, values))]
+
+
+NUMBER = re.compile(r"(?<![\w#.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,2})?(?!\w)")
+
+
+def text(data):
+    """Numbers of each column of a table or of all of another text, and a hash of what is none."""
+    found, words, lines = {}, [], data.decode().splitlines()
+    if lines and "seconds" in lines[0].split(","):
+        at = lines[0].split(",").index("seconds")
+        lines = [",".join(line.split(",")[:at]) for line in lines]
+    for line in lines:
+        parts = NUMBER.split(line)
+        words.append("#".join(parts))
+        for column, number in enumerate(NUMBER.findall(line)):
+            found.setdefault(min(column, 24), []).append(float(number))
+    return {"words": zlib.crc32("\n".join(words).encode()), **{str(column): sums(values) for column, values in found.items()}}
+
+
+def numbers(data, form):
+    size = struct.calcsize(form)
+    rows = list(struct.iter_unpack(form, data[:len(data) // size * size]))
+    return {str(k): sums([row[k] for row in rows]) for k in range(len(rows[0]) if rows else 0)}
+
+
+def ply(data):
+    head, body = data.split(b"end_header\n", 1)
+    lines = [line for line in head.decode().splitlines() if not line.startswith("comment")]
+    form = "<" + "".join({"float": "f", "int": "i", "uchar": "B"}[line.split()[1]] for line in lines
+                         if line.startswith("property") and "list" not in line)
+    count = int(next(line for line in lines if line.startswith("element vertex")).split()[2])
+    end = count * struct.calcsize(form)
+    triangles = [row[1:] for row in struct.iter_unpack("<Biii", body[end:])]
+    places = [row[:3] for row in struct.iter_unpack(form, body[:end])]
+    volume = [sum(a[i] * (b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3]) for i in range(3)) / 6
+              for a, b, c in ([places[v] for v in t] for t in triangles)]
+    return {"header": [line for line in lines if not line.startswith("element")], "volumes": sums(volume), **numbers(body[:end], form)}
+
+
+def glb(data):
+    size = struct.unpack("<I", data[12:16])[0]
+    scene, body, out = json.loads(data[20:20 + size]), data[28 + size:], {}
+    for n, accessor in enumerate(scene["accessors"]):
+        view = scene["bufferViews"][accessor["bufferView"]]
+        parts = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}[accessor["type"]]
+        letter = {5121: "B", 5123: "H", 5125: "I", 5126: "f"}[accessor["componentType"]]
+        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        if "byteStride" in view or letter == "I":
+            continue  # of triangles the vertices are enough
+        out[f"accessor {n}"] = numbers(body[start:start + accessor["count"] * parts * struct.calcsize(letter)], f"<{parts}{letter}")
+    return {"scene": flat({key: value for key, value in scene.items() if key not in ("bufferViews", "buffers")}), **out}
+
+
+def flat(value, name=""):
+    """Numbers and texts of a JSON value by their keys; long lists of numbers by their sums."""
+    if isinstance(value, dict):
+        return {k: v for key, inner in value.items() if key not in ASIDE for k, v in flat(inner, f"{name}.{key}").items()}
+    if isinstance(value, list) and len(value) > 8 and all(isinstance(v, (int, float)) for v in value):
+        return {name: sums(value)}
+    if isinstance(value, list) and len(value) > 12:
+        return {name: text(json.dumps(value).encode())}
+    if isinstance(value, list):
+        return {k: v for n, inner in enumerate(value) for k, v in flat(inner, f"{name}[{n}]").items()}
+    return {name: value}
+
+
+def png(data):
+    """Means of blocks, red, green and blue."""
+    width, rows = read_png(data)
+    across, high = 12, max(1, round(12 * len(rows) / width))
+    out = []
+    for j in range(high):
+        some = rows[j * len(rows) // high:(j + 1) * len(rows) // high]
+        for i in range(across):
+            low, end = 3 * (i * width // across), 3 * ((i + 1) * width // across)
+            out += [round(sum(sum(row[low + c:end:3]) for row in some) / (len(some) * (end - low) / 3), 1) for c in range(3)]
+    return {"size": [width, len(rows)], "blocks": out}
+
+
+def html(data):
+    page = data.decode()
+    header = json.loads(re.search(r'<script[^>]*id="header"[^>]*>(.*?)</script>', page, re.S).group(1))
+    return flat(header)
+
+
+def vdb(path):
+    told = subprocess.run([TOOL, "info", path], capture_output=True, check=True).stdout.decode()
+    aside = r"(?m)^ *(?:file_|creator|command|commit|input_sha256|version|option\.output|.*bytes|.*MB|.*KB|.*uuid|frames\.options).*\n"
+    return text(re.sub(aside, "", told.replace(str(path), "")).encode())
+
+
+def triangles_of_stl(data):
+    return numbers(data[84:], "<12fH")
+
+
+def summary(path):
+    data, end = path.read_bytes(), path.suffix
+    if end == ".vdb":
+        return vdb(path)
+    if end == ".json":
+        return flat(json.loads(data))
+    if end == ".jsonl":
+        return {str(n): flat(json.loads(line)) for n, line in enumerate(data.splitlines())}
+    by_ending = {".ply": ply, ".glb": glb, ".png": png, ".html": html, ".stl": triangles_of_stl,
+                 ".mrc": lambda all_: numbers(all_[1024:], "<f")}
+    if end in by_ending:
+        return by_ending[end](data)
+    if end == ".3mf":
+        with zipfile.ZipFile(path) as file:
+            return {name: text(file.read(name)) for name in file.namelist()}
+    return text(data)
+
+
+def run(commands):
+    """The summaries of all files that commands write."""
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        for name, content in FILES.items():
+            (folder / name).write_text(content)
+        said = []
+        for command in commands:
+            for name in re.findall(r"@(\S+)", command):
+                if not (folder / name).exists():
+                    (folder / name).symlink_to(ROOT / "tests" / "data" / name)
+            done = subprocess.run([TOOL, *command.replace("@", "").split(), "-j", "2", "--no-progress"], cwd=folder, capture_output=True, text=True)
+            said.append([done.returncode, re.sub(r"\d+\.\d\d s|[\d.]+ [MGk]i?B\b", "", done.stderr)])
+        files = sorted(path for path in folder.rglob("*") if path.is_file() and not path.is_symlink() and path.name not in FILES and not path.name.startswith("p.")
+                       and not path.name.startswith("."))
+        return {"says": text(json.dumps(said).encode()), **{str(path.relative_to(folder)): summary(path) for path in files}}
+
+
+def differ(expected, got, name=""):
+    """Lines that name what differs."""
+    if isinstance(expected, dict) and isinstance(got, dict):
+        for key in sorted(set(expected) | set(got)):
+            if key not in expected or key not in got:
+                yield f"{name} {key}: {'new' if key in got else 'gone'}"
+            else:
+                yield from differ(expected[key], got[key], f"{name} {key}")
+    elif isinstance(expected, list) and isinstance(got, list) and len(expected) == len(got):
+        number = [isinstance(v, (int, float)) and not isinstance(v, bool) for v in expected]
+        scale = abs(expected[2]) if all(number) and len(expected) == 4 else 0.0
+        for n, (a, b) in enumerate(zip(expected, got)):
+            if number[n]:
+                within = 2.5 if name.endswith("blocks") else TOLERANCE * max(scale, abs(a)) + 1e-6
+                if not abs(a - b) <= within:
+                    yield f"{name}[{n}]: {a} -> {b}"
+            else:
+                yield from differ(a, b, f"{name}[{n}]")
+    elif isinstance(expected, float) or (isinstance(expected, int) and not isinstance(expected, bool) and not name.endswith("words")):
+        if not isinstance(got, (int, float)) or not abs(expected - got) <= TOLERANCE * abs(expected) + 1e-6:
+            yield f"{name}: {expected} -> {got}"
+    elif expected != got:
+        yield f"{name}: {expected} -> {got}"
+
+
+def rounded(value):
+    if isinstance(value, float):
+        return float(f"{value:.8g}")
+    if isinstance(value, dict):
+        return {key: rounded(inner) for key, inner in value.items()}
+    return [rounded(inner) for inner in value] if isinstance(value, list) else value
+
+
+def all_runs(cases):
+    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
+        return dict(zip(("; ".join(case) for case in cases), pool.map(run, cases)))
+
+
+def main():
+    words = [word for word in sys.argv[1:] if word != "--renew"]
+    cases = [case for case in CASES if not words or any(word in "; ".join(case) for word in words)]
+    got = rounded(all_runs(cases))
+    known = json.loads(VALUES.read_text()) if VALUES.exists() else {}
+    lines = [f"{case}:{line}" for case in got for line in (differ(known[case], got[case]) if case in known else [" new"])]
+    print("\n".join(lines))
+    if "--renew" in sys.argv:
+        names = {"; ".join(case) for case in CASES}
+        kept = {name: {**known, **got}[name] for name in names if name in known or name in got}
+        VALUES.write_text("{\n" + ",\n".join(f"{json.dumps(name)}: {json.dumps(kept[name], separators=(',', ':'))}" for name in sorted(kept)) + "\n}\n")
+        return 0
+    return 1 if lines else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
