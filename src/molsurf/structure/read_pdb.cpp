@@ -101,19 +101,22 @@ private:
     std::set<std::string, std::less<>> wide_; ///< columns 18-22 of residues with a letter in 21
 };
 
-/// A number of a residue. Hybrid-36 counts on from 9999 in base 36: A000 (firstOfLetters) is 10000.
+/// A number of a residue. Hybrid-36 counts on from 9999 in base 36: A000 (firstOfLetters) is 10000,
+/// and behind ZZZZ comes a000.
 int residueNumber(string_view field)
 {
     int number = 0;
     if (parseInteger(field, number) || field.empty()) return number;
     if (field.size() == 4 && isLetter(field[0])) {
         constexpr int base = 36, firstOfLetters = 466560, firstNumber = 10000;
+        constexpr int capitals = 26 * base * base * base; // from A000 to ZZZZ
         for (const char c : field) {
             const int lowered = std::tolower(static_cast<unsigned char>(c));
             if (!isDigit(c) && !isLetter(c)) return 0;
             number = base * number + (isDigit(c) ? c - '0' : lowered - 'a' + 10);
         }
-        return number - firstOfLetters + firstNumber;
+        return number - firstOfLetters + firstNumber +
+               (std::islower(static_cast<unsigned char>(field[0])) ? capitals : 0);
     }
     std::size_t digits = field[0] == '-';
     while (digits < field.size() && isDigit(field[digits])) ++digits;

@@ -152,10 +152,13 @@ TEST(ReadPdb, ReadsHybrid36Numbers)
     const Structure s = readPdb(
         "HETATM99999  O   HOH WZZZZ       1.000   2.000   3.000  1.00  0.00           O  \n"
         "HETATMA0000  O   HOH WA000       4.000   2.000   3.000  1.00  0.00           O  \n"
-        "HETATMA0001  O   HOH WA001       7.000   2.000   3.000  1.00  0.00           O  \n");
-    ASSERT_EQ(s.residues.size(), 3u);
+        "HETATMA0001  O   HOH WA001       7.000   2.000   3.000  1.00  0.00           O  \n"
+        "HETATMa0000  O   HOH Wa000       9.000   2.000   3.000  1.00  0.00           O  \n");
+    ASSERT_EQ(s.residues.size(), 4u);
+    EXPECT_EQ(s.residues[0].number, 1223055);
     EXPECT_EQ(s.residues[1].number, 10000);
     EXPECT_EQ(s.residues[2].number, 10001);
+    EXPECT_EQ(s.residues[3].number, 1223056);
 }
 
 TEST(ReadPdb, KeepsInsertionCodes)
