@@ -244,6 +244,21 @@ class Formats(ToolTest):
             self.assertEqual(words[6:], ["0", str(vertex[atom] + 1), "0"])
         self.assertEqual([tuple(int(w) - 1 for w in line.split()[:3]) for line in face[3:]], triangles)
 
+    def test_scripts_list_colours_that_are_seen(self):
+        """The key has what the legend has, as far as there is room; cavities that are left out are in neither."""
+        seen = []
+        for call in (["1ubq.pdb", "--voxel", 1, "--pocket-cut", 0.5], ["1crn.pdb", "--voxel", 0.7],
+                     ["1crn.pdb", "--voxel", 0.7, "--walls", "outer"]):
+            self.check(0, DATA / call[0], *call[1:], "--surface", "ses", "--pockets", "--color", "pocket", "-o", "a.glb", "-o", "a.cxc",
+                       "-o", "a.legend.svg", "--force")
+            key, = (line for line in (self.folder / "a.cxc").read_text().splitlines() if line.startswith("key "))
+            names = re.findall('"#[0-9a-f]{6}:([^"]*)"', key)
+            drawn = re.findall(">([^<>]*)</text>", (self.folder / "a.legend.svg").read_text())[1:]
+            self.assertEqual(names, drawn if len(drawn) <= 24 else [*drawn[:23], f"+{len(drawn) - 23}"])
+            seen.append(len(drawn))
+        self.assertGreater(seen[0], 24)
+        self.assertLess(seen[2], seen[1])
+
     def test_scripts_open_the_mesh_of_the_run(self):
         self.check(0, CRAMBIN, *FAST, "--color", "element", "-o", "a.glb", "-o", "b.ply", "-o", "c.cxc", "-o", "d.pml")
         chimerax = (self.folder / "c.cxc").read_text().splitlines()

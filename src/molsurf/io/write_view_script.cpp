@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_view_script.h"
 
+#include "molsurf/color/palette.h"
 #include "molsurf/core/words.h"
 #include "molsurf/io/output_buffer.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <vector>
 
 namespace molsurf
@@ -14,13 +16,20 @@ namespace molsurf
 namespace
 {
 
-/// The entries that are shown: names, or the numbers of a scale at its stops.
+/// The entries that are shown: names that are seen, and how many there is no room for, or the
+/// numbers of a scale at five stops, as text that a script reads as numbers.
 std::vector<LegendEntry> entriesOf(const Legend& legend)
 {
-    constexpr std::size_t most = 24;
+    constexpr std::size_t most = 24; // that a window has room for
     if (!legend.scale) {
-        std::vector<LegendEntry> entries = legend.entries;
-        if (entries.size() > most) entries.resize(most);
+        std::vector<LegendEntry> entries;
+        std::copy_if(legend.entries.begin(), legend.entries.end(), std::back_inserter(entries),
+                     [](const LegendEntry& entry) { return entry.seen; });
+        if (entries.size() > most) {
+            const std::size_t left = entries.size() - (most - 1);
+            entries.resize(most - 1);
+            entries.push_back({"+" + std::to_string(left), neutralColor});
+        }
         return entries;
     }
     constexpr int stops = 5;
