@@ -44,8 +44,8 @@ struct MolecularSurface {
     struct Gradients {
         std::vector<openvdb::Vec3d> volume; ///< derivatives of the volume by the centre [Å^2]
         std::vector<openvdb::Vec3d> area;   ///< those of the area [Å]
-        /// Of smooth surfaces: 1 for a ball beside a gap that was decided, whose change with the
-        /// ball is left out. Its derivatives can be wrong by their own size there.
+        /// Of the variational surface: 1 for a ball beside a gap that was decided, where the change
+        /// of rounded ridges is left out. Its derivatives can be wrong by their own size there.
         std::vector<char> besideGap{};
     };
 

@@ -125,24 +125,26 @@ Rest restOf(const EvolveOptions& options, double voxelSize, const EvolutionRepor
     return {rms, std::max(tailOfTolerance * rms, tailOfGrid * coarse)};
 }
 
-/// Fronts move alone once 99 % of the interface move by less than this in a step [voxel], and make
-/// so many steps in all, at most.
+/// Fronts move alone once 99 % of the interface move by less than this in a step [voxel]. After so
+/// many of their steps evolve() lets none move alone again; the last settle() may go beyond.
 constexpr double calmBulk = 0.08;
 constexpr int mostFrontSteps = 240;
 
-/// Lets the fronts that a flow has left move to rest.
+/// Lets the fronts that a flow has left move to rest, while the rest of the interface stays.
 /// @param[in] motion  of the last step
-/// @return whether there were any
+/// @return whether a leaf still moved, so that settle() made steps
 bool settleFronts(NarrowBand& band, const PsiSource& source, const NewtonOptions& steps,
                   const InterfaceMotion& motion, EvolutionReport& report, Progress& progress)
 {
-    constexpr float awake = 0.2f; // of a voxel
-    const float limit = awake * float(coarseness(band.phi.voxelSize));
+    constexpr float frontWay = 0.2f; // of an interface that moves, in the last step [voxel]
+    const float limit = frontWay * float(coarseness(band.phi.voxelSize));
+    // The band may have gained leaves since that step, so that they are found by their places.
     std::vector<float> largest(band.phi.table.size(), 0.0f);
     for (std::size_t n = 0; n < motion.table().size(); ++n)
         largest[std::size_t(band.phi.table.find(motion.table().origin(n)))] = motion.largest()[n];
     const Settling settling = settle(band, source, steps, std::move(largest), limit, progress);
-    if (settling.steps > 0) { // the rims of what moved fit what stood beside it
+    if (settling.steps > 0) {
+        // Leaves that moved end beside leaves that did not: repair the distance across the borders.
         LeafField next(band.phi.table.size());
         for (int i = 0; i < 2; ++i) {
             reinitialize(band.phi, {bandWidthVox * band.phi.voxelSize, 1, Repair::Errors}, progress,

@@ -14,6 +14,8 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace molsurf
@@ -104,9 +106,97 @@ private:
     Vec3d up_, along_; // N = grad psi/|grad psi| and Hess psi N
 };
 
+/// A bump at a point with its derivatives.
+PsiJet jetOf(const Bump& bump, const Vec3d& x)
+{
+    const Vec3d way = x - bump.place;
+    const double rate = bump.rate, value = bump.amplitude * std::exp(-rate * way.lengthSqr());
+    PsiJet jet{value, -2.0 * rate * value * way, Mat3d::zero()};
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b) jet.hessian(a, b) = 4.0 * rate * rate * value * way[a] * way[b];
+        jet.hessian(a, a) -= 2.0 * rate * value;
+    }
+    return jet;
+}
+
+/// The bumps that move with balls, by the cells of space that they reach.
+class MovingBumps
+{
+public:
+    explicit MovingBumps(std::vector<BumpMotion> motions) : motions_(std::move(motions))
+    {
+        for (const BumpMotion& motion : motions_) {
+            const Vec3d reach(std::sqrt(felt / motion.bump.rate));
+            const openvdb::CoordBBox cells(cellOf(motion.bump.place - reach),
+                                           cellOf(motion.bump.place + reach));
+            for (auto cell = cells.begin(); cell; ++cell) cells_[*cell].push_back(&motion);
+        }
+    }
+
+    /// Calls f(ball, d) for the balls that move a bump about a point, d being the derivatives of
+    /// psi - v there [1/Å].
+    template<typename F>
+    void forEach(const Vec3d& x, const PsiJet& jet, const RestLevel& level, const F& f) const
+    {
+        const auto found = cells_.find(cellOf(x));
+        if (found == cells_.end()) return;
+        for (const BumpMotion* motion : found->second) {
+            if (motion->bump.rate * (x - motion->bump.place).lengthSqr() > felt) continue;
+            Vec3d change(0.0);
+            for (int a = 0; a < 3; ++a)
+                change[a] = levelChange(jet, level, jetChange(*motion, a, x));
+            f(motion->ball, change);
+        }
+    }
+
+private:
+    static constexpr double felt = 16.0; // exponent beyond which a bump is not felt
+
+    static openvdb::Coord cellOf(const Vec3d& x)
+    {
+        constexpr double edge = 4.0; // [Å]
+        return openvdb::Coord::floor(x / edge);
+    }
+
+    /// The derivatives of a bump's jet at a point by coordinate a of the ball.
+    static PsiJet jetChange(const BumpMotion& motion, int a, const Vec3d& x)
+    {
+        constexpr double step = 1e-3; // [Å]
+        const auto moved = [&](double way) {
+            Bump bump = motion.bump;
+            bump.place += way * Vec3d(motion.place(0, a), motion.place(1, a), motion.place(2, a));
+            bump.amplitude += way * motion.amplitude[a];
+            bump.rate += way * motion.rate[a];
+            return jetOf(bump, x);
+        };
+        const PsiJet up = moved(step), down = moved(-step);
+        constexpr double per = 1.0 / (2.0 * step);
+        return {per * (up.psi - down.psi), per * (up.gradient - down.gradient),
+                (up.hessian - down.hessian) * per};
+    }
+
+    /// The change of psi - v by that of the jet.
+    static double levelChange(const PsiJet& jet, const RestLevel& level, const PsiJet& by)
+    {
+        const double slope = jet.gradient.length();
+        const Vec3d N = jet.gradient / slope;
+        const double dSlope = N.dot(by.gradient);
+        const Vec3d dN = (by.gradient - dSlope * N) / slope;
+        const double dSecond = N.dot(by.hessian * N) + 2.0 * dN.dot(jet.hessian * N);
+        const double dTrace = by.hessian(0, 0) + by.hessian(1, 1) + by.hessian(2, 2);
+        const double dKappa = (dSecond - dTrace - level.kappa * dSlope) / slope;
+        return by.psi -
+               (level.bySlope * dSlope + level.bySecond * dSecond + level.byKappa * dKappa);
+    }
+
+    std::vector<BumpMotion> motions_;
+    std::unordered_map<openvdb::Coord, std::vector<const BumpMotion*>> cells_;
+};
+
 /// The interface that a surface lies inside of by an offset.
 struct Interface {
     const GaussianSum& sum;
+    const MovingBumps& bumps;
     double offset;     ///< [Å]
     double leastSlope; ///< psi counts as at least so steep [1/Å]
     Weights weights;
@@ -162,7 +252,15 @@ void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t no
     speeds.clear();
     Vec3d rest = normal; // what they lack: a translation of all balls is one of the node
     for (const Share& s : terms.shares)
-        rest -= speeds.emplace_back(isKnown ? response.of(s) / slope : Vec3d(0.0));
+        speeds.push_back(isKnown ? response.of(s) / slope : Vec3d(0.0));
+    if (isKnown)
+        interface.bumps.forEach(foot, jet, level, [&](std::int32_t ball, const Vec3d& change) {
+            const auto share = std::find_if(terms.shares.begin(), terms.shares.end(),
+                                            [&](const Share& s) { return s.ball == ball; });
+            if (share != terms.shares.end())
+                speeds[std::size_t(share - terms.shares.begin())] += change / slope;
+        });
+    for (const Vec3d& speed : speeds) rest -= speed;
     for (std::size_t i = 0; i < terms.shares.size(); ++i) {
         const Share& s = terms.shares[i];
         const Vec3d speed = speeds[i] + s.p * rest;
@@ -176,7 +274,8 @@ void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t no
     }
 }
 
-/// Marks the balls with a share of psi at the place of a bump, which would change with them.
+/// Marks the balls with a share of psi at the place of a bump. Inside of an interface, ridges about
+/// the place are rounded, and how that follows the balls is left out.
 std::vector<char> ballsBesideGaps(const GaussianSum& sum, std::size_t balls)
 {
     constexpr double leastShare = 0.05; // of the terms there
@@ -201,17 +300,19 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
     const Weights weights = weightsOf(flow);
     const GaussianOptions gaussian = gaussianOptions(spec);
     GaussianSum sum(atoms.balls, gaussian, atoms.decays);
+    DecidedGaps gaps;
     if (auto rule = gapRuleOf(spec)) { // then psi has the bumps of gaps
         rule->countsClosed = false;
         sum.band(0, progress, openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
             GapReport unused;
-            return bumpsOfGaps(sum, psi, *rule, progress, unused);
+            return bumpsOfGaps(sum, psi, *rule, progress, unused, &gaps);
         });
     }
+    const MovingBumps bumps(motionsOfBumps(sum, gaps, gaussian.voxelSize, progress));
     const std::vector<double> slopes = slopesOf(atoms.balls, gaussian, atoms.decays);
     const double leastSlope = leastShare * *std::min_element(slopes.begin(), slopes.end());
     const Interface interface {
-        sum, offsetOf(spec), leastSlope, weights
+        sum, bumps, offsetOf(spec), leastSlope, weights
     };
     const PatchNodes nodes = patchNodes(mesh);
     std::vector<Sums> parts((nodes.points.size() + chunk - 1) / chunk);
@@ -222,7 +323,8 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
     });
     BallGradients out{std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0)),
                       std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0)),
-                      ballsBesideGaps(sum, atoms.balls.size())};
+                      offsetOf(spec) > 0.0 ? ballsBesideGaps(sum, atoms.balls.size())
+                                           : std::vector<char>(atoms.balls.size(), 0)};
     for (const Sums& part : parts) {
         for (const auto& [ball, sums] : part) {
             out.volume[std::size_t(ball)] += sums.first;

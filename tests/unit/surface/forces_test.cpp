@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -128,7 +129,7 @@ TEST(SmoothForces, AddUpToNothing)
     }
 }
 
-/// psi - v of a surface for balls in other places, with the bumps that the gaps of the first have.
+/// psi - v of a surface for balls in other places, with the bumps of their own gaps.
 class ByDifferences
 {
 public:
@@ -138,18 +139,12 @@ public:
     {
         const std::vector<double> slopes = slopesOf(balls_, options_, {});
         least_ = 0.2 * *std::min_element(slopes.begin(), slopes.end());
-        sums_.emplace_back(balls_, options_);
-        if (const auto rule = gapRuleOf(spec)) {
-            GapReport report;
-            sums_[0].band(0, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
-                return bumpsOfGaps(sums_[0], psi, *rule, Progress(), report);
-            });
-        }
+        addSum(balls_, spec);
+        if (bumps() > 0) step_ = 1.0 / 128.0; // the places of bumps are rounded to 2^-16 Å
         for (std::size_t k = 0; k < 6 * balls_.size(); ++k) {
             std::vector<Ball> moved = balls_;
-            moved[k / 6].center[int(k / 2 % 3)] += k % 2 == 0 ? -float(step) : float(step);
-            sums_.emplace_back(moved, options_);
-            sums_.back().setBumps(sums_[0].bumps());
+            moved[k / 6].center[int(k / 2 % 3)] += k % 2 == 0 ? -float(step_) : float(step_);
+            addSum(moved, spec);
         }
     }
 
@@ -165,7 +160,16 @@ public:
     }
 
 private:
-    static constexpr double step = 1.0 / 512.0; // [Å]
+    void addSum(const std::vector<Ball>& balls, const SurfaceSpec& spec)
+    {
+        GaussianSum& sum = sums_.emplace_back(balls, options_);
+        const auto rule = gapRuleOf(spec);
+        GapReport report;
+        if (rule)
+            sum.band(0, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
+                return bumpsOfGaps(sum, psi, *rule, Progress(), report);
+            });
+    }
 
     double at(std::size_t sum, const Vec3d& x) const
     {
@@ -191,7 +195,7 @@ private:
         for (std::size_t i = 0; i < balls_.size(); ++i) {
             for (int a = 0; a < 3; ++a) {
                 const std::size_t moved = 6 * i + 2 * std::size_t(a) + 1;
-                speeds[i][a] = (at(moved + 1, x) - at(moved, x)) / (2.0 * step * slope);
+                speeds[i][a] = (at(moved + 1, x) - at(moved, x)) / (2.0 * step_ * slope);
             }
             lacks -= speeds[i];
             const double R = balls_[i].radius + options_.probe;
@@ -210,8 +214,8 @@ private:
     std::vector<Ball> balls_;
     GaussianOptions options_;
     Weights weights_;
-    double least_;
-    std::vector<GaussianSum> sums_; // first of the balls themselves
+    double least_, step_ = 1.0 / 512.0; // [Å]
+    std::deque<GaussianSum> sums_;      // first of the balls themselves
 };
 
 /// Holds the derivatives of the volume against differences of psi - v.
@@ -225,12 +229,11 @@ void expectTheLevelsDerivatives(const BallSet& atoms, const SurfaceSpec& spec, b
     double worst = 0.0;
     for (std::size_t i = 0; i < found.size(); ++i)
         worst = std::max(worst, (found[i] - by[i]).length());
-    EXPECT_LT(worst, 2e-4 * rmsOf(by));
+    EXPECT_LT(worst, (hasBumps ? 5e-3 : 2e-4) * rmsOf(by));
 }
 
 // The interface itself moves as psi - v changes at fixed points, which differences of it show,
-// also where the field has bumps that hold a gap, which are taken as fixed: six atoms about a
-// cavity.
+// also where the field has bumps that hold a gap and follow the atoms: six atoms about a cavity.
 TEST(SmoothForces, AreThoseOfTheLevelAtEachPoint)
 {
     SurfaceSpec spec;
@@ -243,10 +246,11 @@ TEST(SmoothForces, AreThoseOfTheLevelAtEachPoint)
     }
     spec.evolution = {};
     spec.evolution.lambda = 1e-3;
-    BallSet cage;
+    BallSet cage; // not symmetric: where curvatures are equal, the bump has a kink
     for (int i = 0; i < 6; ++i) {
         Vec3d x(0.13, -0.21, 0.07);
-        x[i % 3] += i < 3 ? 3.78 : -3.78;
+        const double way = 3.7 + 0.06 * (i % 3);
+        x[i % 3] += i < 3 ? way : 0.02 - way;
         cage.balls.push_back({x, 1.7f, i});
     }
     expectTheLevelsDerivatives(cage, spec, true);
@@ -266,6 +270,36 @@ TEST(SmoothForces, KnowWhichBallsLieBesideAGap)
     EXPECT_EQ(gradientsOf(atoms, SurfaceSpec()).besideGap, (std::vector<char>{1, 1, 1, 1, 0}));
     atoms.balls.erase(atoms.balls.begin());
     EXPECT_EQ(gradientsOf(atoms, SurfaceSpec()).besideGap, (std::vector<char>{0, 0, 0, 0}));
+}
+
+// A hole that tension closes stays closed as its ring breathes: the film moves with the atoms.
+TEST(SmoothForces, FollowAHeldGap)
+{
+    const double R = 3.1, C = M_LN2 / (0.5 * R), d = std::sqrt(R * R + (std::log(4.0) + 0.2) / C);
+    SurfaceSpec spec;
+    spec.kind = SurfaceKind::SmoothAccessible;
+    spec.voxel = 0.25;
+    BallSet atoms;
+    for (int k = 0; k < 4; ++k) {
+        Vec3d x(0.0);
+        x[k / 2] = (k % 2 ? d : -d) * (1.0 + 0.002 * k);
+        atoms.balls.push_back({x, 1.7f, k});
+    }
+    const MolecularSurface surface = made(atoms, spec);
+    ASSERT_EQ(surface.report.evolution->gaps->closed, 1u);
+    const auto found = surfaceGradients(atoms, spec, surface.mesh);
+    constexpr double step = 0.01; // [Å]
+    double area[2], volume[2];
+    for (const int side : {0, 1}) {
+        BallSet moved = atoms;
+        moved.balls[1].center[0] += float(side ? step : -step);
+        const SurfaceReport report = made(moved, spec).report.surface;
+        area[side] = report.area;
+        volume[side] = report.volume;
+    }
+    EXPECT_NEAR(found.area[1][0] / ((area[1] - area[0]) / (2.0 * step)), 1.0, 0.02);
+    EXPECT_NEAR(found.volume[1][0] / ((volume[1] - volume[0]) / (2.0 * step)), 1.0, 0.01);
+    for (const char marked : found.besideGap) EXPECT_EQ(marked, 0);
 }
 
 TEST(SmoothForces, AreRefusedWhereNothingKnowsThem)
