@@ -76,6 +76,7 @@ std::optional<int> statusOfExisting(Call& call)
     const fs::file_time_type made = fs::last_write_time(report->path, missing);
     const std::optional<KnownRun> known = missing ? std::nullopt : readReport(report->path);
     if (!known) return std::nullopt;
+    // writeOutputs() finishes the report last: a newer file was changed by someone else.
     const bool whole = std::all_of(call.outputs.begin(), call.outputs.end(), [&](const Output& o) {
         const fs::file_time_type time = fs::last_write_time(o.path, missing);
         return !missing && time <= made && !isStream(o.path);

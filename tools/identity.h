@@ -26,7 +26,8 @@ std::string sha256OfInput(const std::string& path);
 /// The exit status of a run that has made all outputs of a call of the same input, if there was
 /// one: its report has the same identity, and no output is newer. Otherwise outputs beside a
 /// report may be replaced.
-/// @param[in,out] call  gets `force` if there is a report of another run
+/// @param[in,out] call  has a report among its outputs; it gets `force` if there is a report and
+///                      the run is to be made, so that its files are replaced
 std::optional<int> statusOfExisting(Call& call);
 
 } // namespace molsurf::tool

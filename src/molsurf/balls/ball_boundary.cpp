@@ -58,7 +58,8 @@ struct Scratch {
     BallParts parts;
 };
 
-/// Adds a gap of a circle as an arc, with the corners at its ends that no other circle adds.
+/// Adds a gap of a circle as an arc, with the corners at its ends that no other circle adds. The
+/// circle is on ball i and on cap.other behind it: each circle is found once.
 void addArc(const PlacedBall& ball, std::int32_t i, const Cap& cap, const Circle& circle,
             const Gap& gap, const CapArrays& caps, BallParts& parts)
 {

@@ -125,8 +125,8 @@ CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std:
         float from[bundle], to[bundle];
         followRays(&u.x[at], &u.y[at], &u.z[at], caps.rounded, from, to);
         for (std::size_t d = 0; d < bundle; ++d) {
-            const double begin = from[d], length = std::max(from[d], to[d]);
-            const double cubes = length * length * length - begin * begin * begin;
+            const double begin = from[d], end = std::max(from[d], to[d]); // a ray that misses: 0
+            const double cubes = end * end * end - begin * begin * begin;
             sum += cubes;
             squares += cubes * cubes;
         }

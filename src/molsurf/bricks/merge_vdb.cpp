@@ -167,14 +167,16 @@ bool holds(const StoredLeaf& stored, std::string bytes, const StoredGrid& grid,
     }
 }
 
-/// Reads the values of all leaves once, for what stands in the merged file to be readable.
+/// Reads the values of all leaves of a brick once, so that the merged file is readable. It refuses
+/// the brick after the first run of leaves with a bad one.
+/// @param[in] g  number of the grid
 template<typename GridT>
 void checkValues(const BrickFile& brick, const std::vector<StoredLeaf>& leaves, std::size_t g,
                  const typename GridT::ValueType& background, std::uint32_t compression,
                  const Progress& progress)
 {
     using Leaf = typename GridT::TreeType::LeafNodeType;
-    constexpr std::size_t run = 4096;
+    constexpr std::size_t run = 4096; // leaves between two looks at what the threads found
     for (std::size_t begin = 0; begin < leaves.size(); begin += run) {
         const std::size_t count = std::min(run, leaves.size() - begin);
         std::atomic<bool> good{true};

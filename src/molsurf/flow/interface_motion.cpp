@@ -44,6 +44,7 @@ InterfaceWatch InterfaceMotion::watch()
         LeafChange leaf;
         std::copy_n(before, leafSize, leaf.before);
         std::copy_n(after, leafSize, leaf.after);
+        // The last row reads values beyond the leaf; no result comes of them.
         std::fill_n(leaf.before + leafSize, leafDim, 1.0f);
         std::fill_n(leaf.after + leafSize, leafDim, 1.0f);
         const bool counts = region_.owned.isInside(table_.origin(n));

@@ -68,6 +68,7 @@ ClosestPoint::~ClosestPoint() = default;
 MeshPoint ClosestPoint::at(const Vec3d& x) const
 {
     const double size = std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2]), reach_});
+    // Embree searches in floats, which are off by 1e-7 of the largest coordinate: ten times that.
     Search search{mesh_, x, 1e-6 * size};
     RTCPointQuery query{};
     query.x = float(x[0]);

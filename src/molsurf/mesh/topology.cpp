@@ -201,6 +201,8 @@ struct Verdict {
     }
 };
 
+/// Checks the triangles about each wanted vertex, slice by slice: firstDoubtful() passes those that
+/// make one turn, and checkFan() decides the others.
 /// @param[in] wanted  whether to check a vertex, by its index
 template<typename F>
 Topology checkVertices(const Mesh& mesh, const F& wanted, const Progress& progress)

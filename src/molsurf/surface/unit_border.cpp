@@ -364,6 +364,7 @@ private:
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             const std::uint32_t v = edges_[e].from;
             const auto& [x, n] = means[e];
+            // No two of them were farther apart than twice the longest way to the middle.
             out_.largest = std::max(out_.largest, 2.0 * (x - at(v)).length());
             mesh_.positions[v] = Vec3f(x);
             if (n.lengthSqr() > 0.0) mesh_.normals[v] = Vec3f(n.unit());
