@@ -233,7 +233,8 @@ void shareRegion(const BallBoundary& boundary, const Vec3d& place, double probe,
 }
 
 /// Adds the edges and vertices about the faces of a corner. To the Euler number of a face an edge
-/// counts -1/2, since two faces meet there, and a vertex 1 over the number of faces about it.
+/// counts -1/2, since two faces meet there, and a vertex 1 over the number of faces about it. A
+/// crease ends at a side only in a cusp, which addTori() counts in full.
 /// @param[in] arcs  rims of the caps of `s`: the three sides first, then those of other corners
 void describeEdges(const std::vector<RimArc>& arcs, const CornerScratch& s, double probe,
                    ConcavePart& part)

@@ -125,7 +125,9 @@ MOLSURF_KERNEL void sweepRows(const std::uint16_t* __restrict uBlock, const Leaf
     }
 }
 
-/// u at the feet of a leaf's voxels, and |grad phi| there; 0 beside the active ones.
+/// Interpolates u at the feet of a leaf's voxels, trilinearly between corners where it is known,
+/// and takes |grad phi| at the voxels. u is 0 beside the active voxels; changeRows() masks the
+/// slope.
 MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock,
                              const std::uint16_t* __restrict uBlock, const LeafMask& active,
                              float h, float* __restrict atFoot, float* __restrict slope)
@@ -180,8 +182,9 @@ MOLSURF_KERNEL void feetRows(const float* __restrict phiBlock,
         for (int z = 0; z < 8; ++z) {
             const float here = ofUpperHalf(q[z]);
             const float own = here < known ? here : 0.0f;
+            // Where phi is flat two pieces meet, and its gradient leads to no foot.
             const bool hasFoot = (slopes[z] > 0.5f) & (weight[z] > 0.3f);
-            const float u = hasFoot ? sum[z] / larger(weight[z], 0.1f) : own;
+            const float u = hasFoot ? sum[z] / larger(weight[z], 0.1f) : own; // never by 0
             atFoot[8 * row + z] = bits & rowBits[z] ? u : 0.0f;
             slope[8 * row + z] = slopes[z];
         }

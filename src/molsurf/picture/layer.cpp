@@ -345,7 +345,9 @@ Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) con
     const bool fromBehind = placed(side).dot(view_.toEye) < 0.0;
     const double length = double(rays.ray.tfar[s]);
     const double start = from.dot(view_.toEye) - view_.center.dot(view_.toEye);
-    if (clips_ && start >= top_ - 1e-6 && fromBehind) { // it begins inside
+    // Rays of the first layer begin at float(top_), and `start` is that but for rounding. One that
+    // meets a back face from there began inside.
+    if (clips_ && start >= double(float(top_)) - 1e-6 && fromBehind) {
         Seen out;
         out.depth = float(top_);
         out.piece = Seen::cut;
@@ -356,6 +358,7 @@ Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) con
     Vec3d normal = placed(weights[0] * mesh.normals[t[0]] + weights[1] * mesh.normals[t[1]] +
                           weights[2] * mesh.normals[t[2]]);
     Seen out = facing(float(start - length), fromBehind ? -normal : normal);
+    // Copies beside each other get different numbers below those of cuts and atoms.
     if (copy) out.piece = std::uint8_t(rays.hit.instID[0][s] % Seen::atom);
     const Vec3d x = from - length * view_.toEye;
     out.color = colorAt(t.data(), weights, copy ? broughtBack(*copy, x) : x);

@@ -141,6 +141,7 @@ public:
     Structure read(const std::string& text, const Progress& progress)
     {
         LayoutFinder finder;
+        // CONECT comes first, too: names are kept of those atoms alone that a bond asks for.
         for (LineReader lines(text); lines.next();) {
             if (isAtomRecord(lines.line()))
                 finder.add(lines.line());

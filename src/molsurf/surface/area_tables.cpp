@@ -144,11 +144,6 @@ void addDepths(const BallSet& atoms, const Numbers& depths, const Counts& balls,
     table.columns.push_back({"ca_depth_A", std::move(ca)});
 }
 
-} // namespace
-
-namespace
-{
-
 /// The names of the first balls, and their radii.
 void addAtoms(const BallSet& atoms, std::size_t count, Table& table)
 {

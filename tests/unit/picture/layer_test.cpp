@@ -94,6 +94,22 @@ TEST_F(LayerTest, HalfOfTheRaysLookAtWhatIsNear)
     EXPECT_NEAR(open, (0.5 + 0.9) / 2.0, 0.05); // 0.9 if all rays did, 0.5 if none
 }
 
+// Places of the cut that no float has, also far from the middle.
+TEST_F(LayerTest, ACutIsACutWhereverItIs)
+{
+    test::addBall(mesh, Vec3f(0.0f), 100.0f, gray);
+    options.width = 40;
+    for (const double clip : {0.1, 33.3, 40.1, 77.7, -40.1, -99.3}) {
+        options.clip = clip;
+        const Layers layers = traced();
+        const auto across = std::size_t(subpixels * layers.view.width);
+        const std::size_t rows = layers.first.seen.size() / across;
+        const Seen& middle = layers.first.seen[across * (rows / 2) + across / 2];
+        EXPECT_EQ(int(middle.piece), int(Seen::cut)) << clip;
+        EXPECT_NEAR(middle.depth, clip, 1e-4);
+    }
+}
+
 TEST_F(LayerTest, ACutLeavesTheRestOfATriangle)
 {
     addPlate(mesh, -5.0f, 5.0f, 0.0f);
