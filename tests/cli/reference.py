@@ -23,15 +23,19 @@ import zlib
 from tool import ROOT, TOOL, read_png
 
 VALUES = ROOT / "tests" / "reference.json"
-# Sums may differ by this share of the sum of absolute values: processors and compilers round in other places.
-TOLERANCE = 2e-6
+# Sums may differ by these shares of the sum of absolute values, the first that fits the name: processors and compilers round in
+# other places. Measured with qemu-x86_64 -cpu Nehalem, Haswell: 3e-3 of shares at kinks, 1.2e-3 of curvatures, 6e-4 of labels.
+TOLERANCES = (("kink_share", 1e-2), ("curvature", 4e-3), ("label|accessor", 2e-3), ("", 2e-5))
 # What no two runs share, and residuals of the size of rounding.
 ASIDE = {"seconds", "peak_memory_bytes", "command", "commit", "input_sha256", "threads", "version", "total_seconds", "max_residual",
          "gradient_share", "max_speed", "unsettled_share", "displacement_rms", "displacement_tail", "mean_displacement"}
 
 
 def atoms(*rows):
-    return "".join(" ".join(f"{value:.6g}" for value in row) + "\n" for row in rows)
+    """Lines x y z radius. Each atom is a little aside, since ties of symmetric places are decided by rounding."""
+    aside = lambda n, a: 0.02 * math.sin(12.9898 * n + 78.233 * a)
+    return "".join(" ".join(f"{value + (aside(n, a) if a < 3 else 0):.6g}" for a, value in enumerate(row)) + "\n"
+                   for n, row in enumerate(rows, 1))
 
 
 def ring(count, edge, radius=1.7):
@@ -68,6 +72,7 @@ FILES = {
     "shell.xyzr": atoms(*shell(60, 5.5)),
     "tube.xyzr": atoms(*tube(8, 3.6)),
     "ion.pqr": "ATOM 1 C ION 1 0.0 0.0 0.0 1.0 2.0\nATOM 2 C ION 2 3.0 0.5 0.0 -0.5 1.0\nATOM 3 N ION 2 3.9 0.5 0.7 -0.1 0.0\n",
+    "held.xyzr": atoms(*ring(4, 5.12), (14, 1, 2, 1.5)),
     "list.txt": "two.xyzr\napart.xyzr\nring6.xyzr\n",
     "groups.txt": "front resid 1-20 #ff8800\nback resid 21-46 teal\n",
 }
@@ -97,7 +102,7 @@ CASES = [[f"{name} {more} {EVERY}"] for name, more in [
     [f"{C} --color bfactor --palette cividis --flat-values -o a.ply -o a.legend.svg", "@selections.pqr --color charge --range -1,1 --outward 2 -o b.ply"],
     [f"{C} --color {color} --surface vdw -o {color}.ply" for color in ("residue", "element", "radius", "depth", "mean-curvature", "hydrophobicity")],
     [f"{C} --surface {kind} -o {kind}.forces.csv" for kind in ("ses", "sas", "vdw", "variational", "smooth-sas")],
-    ["ring4.xyzr --voxel 0.5 -o a.forces.csv"],
+    ["held.xyzr --surface smooth-sas --voxel 0.4 -o a.forces.csv -o a.json", "held.xyzr --voxel 0.4 -o b.forces.csv -o b.json"],
     [f"{C} --groups groups.txt --color group --split group --fields group_id {EVERY}"],
     [f"{D} --group-by copy --interfaces --surface sas -o a.json -o a.interfaces.csv", f"{D} --group-by chain --surface-of A=ses -o b.json -o b.ply"],
     [f"{D} --by-symmetry --surface ses --color chain -o a.ply -o a.glb -o a.json", f"{D} --by-symmetry --weld -o b.stl -o b.json"],
@@ -148,7 +153,8 @@ def text(data):
 def numbers(data, form):
     size = struct.calcsize(form)
     rows = list(struct.iter_unpack(form, data[:len(data) // size * size]))
-    return {str(k): sums([row[k] for row in rows]) for k in range(len(rows[0]) if rows else 0)}
+    names = [f"{k} label" if letter == "i" else str(k) for k, letter in enumerate(form[1:])]
+    return {name: sums([row[k] for row in rows]) for k, name in enumerate(names) if rows}
 
 
 def ply(data):
@@ -175,7 +181,7 @@ def glb(data):
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         if "byteStride" in view or letter == "I":
             continue  # of triangles the vertices are enough
-        out[f"accessor {n}"] = numbers(body[start:start + accessor["count"] * parts * struct.calcsize(letter)], f"<{parts}{letter}")
+        out[f"accessor {n}"] = numbers(body[start:start + accessor["count"] * parts * struct.calcsize(letter)], "<" + parts * letter)
     return {"scene": flat({key: value for key, value in scene.items() if key not in ("bufferViews", "buffers")}), **out}
 
 
@@ -218,7 +224,7 @@ def vdb(path):
 
 
 def triangles_of_stl(data):
-    return numbers(data[84:], "<12fH")
+    return numbers(data[84:], "<ffffffffffffH")
 
 
 def summary(path):
@@ -235,7 +241,8 @@ def summary(path):
         return by_ending[end](data)
     if end == ".3mf":
         with zipfile.ZipFile(path) as file:
-            return {name: text(file.read(name)) for name in file.namelist()}
+            plain = lambda name: re.sub(rb"[0-9a-f]{8}-[0-9a-f-]{27}", b"", file.read(name))  # digests of the mesh
+            return {name: text(plain(name)) for name in file.namelist()}
     return text(data)
 
 
@@ -257,6 +264,10 @@ def run(commands):
         return {"says": text(json.dumps(said).encode()), **{str(path.relative_to(folder)): summary(path) for path in files}}
 
 
+def tolerance(name):
+    return next(share for word, share in TOLERANCES if re.search(word, name))
+
+
 def differ(expected, got, name=""):
     """Lines that name what differs."""
     if isinstance(expected, dict) and isinstance(got, dict):
@@ -270,13 +281,13 @@ def differ(expected, got, name=""):
         scale = abs(expected[2]) if all(number) and len(expected) == 4 else 0.0
         for n, (a, b) in enumerate(zip(expected, got)):
             if number[n]:
-                within = 2.5 if name.endswith("blocks") else TOLERANCE * max(scale, abs(a)) + 1e-6
+                within = 2.5 if name.endswith("blocks") else tolerance(name) * max(scale, abs(a)) + 1e-6
                 if not abs(a - b) <= within:
                     yield f"{name}[{n}]: {a} -> {b}"
             else:
                 yield from differ(a, b, f"{name}[{n}]")
     elif isinstance(expected, float) or (isinstance(expected, int) and not isinstance(expected, bool) and not name.endswith("words")):
-        if not isinstance(got, (int, float)) or not abs(expected - got) <= TOLERANCE * abs(expected) + 1e-6:
+        if not isinstance(got, (int, float)) or not abs(expected - got) <= tolerance(name) * abs(expected) + 1e-6:
             yield f"{name}: {expected} -> {got}"
     elif expected != got:
         yield f"{name}: {expected} -> {got}"
