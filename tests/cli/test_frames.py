@@ -286,6 +286,14 @@ class Frames(ToolTest):
                 self.assertLess(max(abs(float(a) - b) for a, b in zip(value, (way, 0, 0))), 0.01)
         self.check(2, CRAMBIN, "--fps", "24", "-o", "a.vdb", says="--frames")
 
+    def test_frames_of_another_trajectory_are_others(self):
+        for name in ("t.dcd", "u.dcd"):
+            (self.folder / name).write_bytes(dcd(self.moved(2)))
+        call = [CRAMBIN, *FAST, "--surface", "vdw", "--frames", "1-2", "-o", "a.vdb", "--trajectory"]
+        self.check(0, *call, "t.dcd")
+        self.check(0, *call, "t.dcd")
+        self.check(1, *call, "u.dcd", says="of another frame or with other options")
+
     def test_again_does_what_was_not_done(self):
         words = (NMR, *FAST, "-o", "a.vdb", "-o", "a.ply", "-o", "a.csv")
         self.check(0, *words, "--frames", "1-2")

@@ -52,6 +52,21 @@ class Panels(ToolTest):
         rows = self.picture("a.pdb", "--panel", "b.pdb", "--panel", "c.pdb", "--view", "a.view", "--size", 600, "--legend", "off")
         self.assertEqual(len(self.runs(rows)), 1)
 
+    def test_panels_turn_with_the_first(self):
+        """On a turntable a rod of each panel is seen along after a quarter of a turn."""
+        for name in ("a.pdb", "b.pdb"):
+            self.rod(name, 16)
+        self.check(0, "a.pdb", "--panel", "b.pdb", "--view", "0,0,1", "--surface", "vdw", "--voxel", "0.5", "--size", 400, "--legend", "off",
+                   "--turntable", 4, "-o", "t.png", "-q")
+        widths = []
+        for number in (1, 2):
+            found, rows = read_png((self.folder / f"t.{number:04}.png").read_bytes())
+            runs = self.runs([[tuple(row[3 * x:3 * x + 3]) for x in range(found)] for row in rows])
+            self.assertEqual(len(runs), 2)
+            widths.append([b - a for a, b in runs])
+        for n in (0, 1):
+            self.assertLess(widths[1][n], 0.5 * widths[0][n])
+
     def test_one_legend(self):
         """Colours of values are those of the first; each name of a list is in it once."""
         self.rod("a.pdb", 8, b=20.0)

@@ -147,6 +147,15 @@ class Pictures(ToolTest):
         self.check(2, CRAMBIN, "-o", "b.png", "--opacity", "0", says="0.01 to 1")
         self.check(2, CRAMBIN, "-o", "b.png", "--clip", "near", says="a number of Å")
 
+    def test_a_cut_of_copies_is_that_of_the_whole(self):
+        """The colours inside of a copy are those of its own place."""
+        words = [DATA / "1a8o.cif.gz", "--assembly", "1", *FAST, "--surface", "vdw", "--color", "element", "--clip", "0", "--view", "0,0,1",
+                 "--size", "200", "--legend", "off", "--style", "flat"]
+        (_, whole), (_, copies) = self.picture(*words), self.picture(*words, "--instances")
+        self.assertEqual(len(whole), len(copies))
+        apart = [abs(a - b) for rows in zip(whole, copies) for pair in zip(*rows) for a, b in zip(*pair)]
+        self.assertLess(sum(apart) / len(apart), 3)
+
     def test_orders_of_molecules(self):
         """The orders of bonds in .sdf, old and new, and .mol2: of all molecules alike, or they are not known."""
         atoms = [("C", 0, 0), ("C", 1.5, 0), ("O", 2.1, 1.05), ("O", 2.2, -1.15)]

@@ -148,6 +148,8 @@ protected:
         const int euler = *meshed.eulerCharacteristic;
         EXPECT_EQ(report.eulerCharacteristic, euler);
         EXPECT_EQ(report.maxResidual < 1e-3, expected.maxResidual < 1e-3);
+        for (const BrickFile& brick : bricks)
+            EXPECT_GE(report.maxResidual, brick.header().sums.maxResidual);
         EXPECT_EQ(report.meanCurvature.percentiles, expected.meanCurvature.percentiles);
         if (exact) {
             EXPECT_NEAR(report.area, meshed.area, 1e-9 * meshed.area);

@@ -9,6 +9,7 @@
 #include <openvdb/io/File.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 namespace molsurf::test
@@ -115,6 +116,7 @@ TEST(Files, HoldMeshesAsSettingsSay)
     EXPECT_LT(cavities.triangles.size(), outer.triangles.size());
     EXPECT_LT(boxOf(cavities).getCenter().length(), 1e-5);
     EXPECT_GT(boxOf(outer).getCenter().length(), 1.0);
+    EXPECT_LT(boxOf(read("a.stl", {{"center", ""}})).getCenter().length(), 1e-4);
     const Mesh printed = read("a.stl", {{"print-scale", "0.5"}});
     EXPECT_LT((boxOf(printed).extents() - 0.5 * boxOf(all).extents()).length(), 1e-4);
     writeSurface({shown}, folder / "a.glb", {{"for", "blender=0.25"}, {"plain-color", "#010203"}});
@@ -217,6 +219,30 @@ TEST(DrawnSurface, HasALegendForEachScale)
     EXPECT_EQ(both[0].title, legends[0].title);
     EXPECT_EQ(both[1].title, legends[0].title + ", VDW");
     EXPECT_NE(both[0].scale->high, both[1].scale->high);
+    DrawnSurface first = drawn(made, "one"), second = drawn(made, "two");
+    first.legend = legends[0];
+    second.legend = legends[0];
+    second.legend->scale->high *= 2.0; // and the same low end
+    EXPECT_EQ(legendsOf({first, second}, Progress()).size(), 2u);
+}
+
+/// Half a turn of panels is another view; two of them would be none.
+TEST(DrawnSurface, TurnsPanelsOnce)
+{
+    const Colored made;
+    const auto draw = [&](double turn) {
+        PictureSettings settings;
+        settings.picture.width = 200;
+        settings.picture.turn = turn;
+        const DrawnSurface panel{made.atoms, made.surface.mesh, made.options, settings.picture};
+        return drawSurfaces({panel, panel}, settings, Progress()).rgb;
+    };
+    const auto half = draw(180.0), whole = draw(360.0);
+    ASSERT_EQ(whole.size(), half.size());
+    double apart = 0.0;
+    for (std::size_t i = 0; i < half.size(); ++i)
+        apart += std::abs(double(half[i]) - double(whole[i]));
+    EXPECT_GT(apart / double(half.size()), 5.0);
 }
 
 /// Two panels are wider than they are high, the names are below, and atoms are seen beside.
@@ -245,6 +271,8 @@ TEST(Files, DrawSurfacesSideBySide)
     EXPECT_NE(named(one), named(other));
     other.show = {{"spheres", &made.atoms}};
     EXPECT_NE(draw({one, other}), two);
+    writePicture(std::vector{one, one}, folder / "a.png", {{"size", "300"}, {"dpi", "300"}});
+    EXPECT_HAS(contentOf(folder / "a.png"), "pHYs");
     const auto errorWith = [&](const std::vector<ShownSurface>& panels) {
         return errorOf(ErrorKind::Usage, [&] { draw(panels); });
     };
@@ -254,6 +282,25 @@ TEST(Files, DrawSurfacesSideBySide)
         other.show = {{word, atoms}};
         EXPECT_HAS(errorWith({other}), "`show`: expected a word and atoms with names");
     }
+}
+
+/// A label lies in the frame of its own structure alone: another one far away keeps its size.
+TEST(Files, LabelTheirOwnStructure)
+{
+    const Colored made;
+    Colored far = made;
+    for (Ball& ball : far.atoms.balls) ball.center += openvdb::Vec3f(300.0f, 0.0f, 0.0f);
+    far.surface = makeSurface(far.atoms, far.options);
+    const Folder folder;
+    const ShownSurface one{&made.atoms, &made.surface, &made.options, ""},
+        other{&far.atoms, &far.surface, &far.options, ""};
+    const auto highOf = [&](const ShownSurface& second) {
+        writePicture(std::vector{one, second}, folder / "a.png",
+                     {{"size", "300"}, {"view", "0,0,1"}, {"label", "10,10,10=here"}});
+        const std::string png = contentOf(folder / "a.png");
+        return 256 * int(std::uint8_t(png[22])) + int(std::uint8_t(png[23]));
+    };
+    EXPECT_NEAR(highOf(other), highOf(one), 2);
 }
 
 #ifndef MOLSURF_NO_VIEWER

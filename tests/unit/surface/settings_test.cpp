@@ -113,6 +113,14 @@ TEST(Settings, RangesAreThoseThatAreChecked)
     EXPECT_EQ(ranges, 15);
 }
 
+TEST(Settings, TakeResolutionsFrom1To50)
+{
+    for (const char* taken : {"1", "50", "A=1"})
+        EXPECT_EQ(messageOf("resolution", {taken}), "taken");
+    for (const char* refused : {"0.99", "50.1", "A=0.5"})
+        EXPECT_NE(messageOf("resolution", {refused}).find("1 to 50"), std::string::npos) << refused;
+}
+
 TEST(Settings, NameTheMemberOfAWrongValue)
 {
     EXPECT_EQ(messageOf("voxel", {"fine"}), "`voxel`: expected a number, got 'fine'");
