@@ -12,14 +12,35 @@ using openvdb::Vec3d;
 namespace
 {
 
-constexpr double bumpFelt = 16.0; // beyond this exponent a bump is not felt
+constexpr double bumpFelt = 16.0; // beyond this exponent a bump counts as zero
 
 } // namespace
+
+double reachOf(const Bump& bump)
+{
+    return std::sqrt(bumpFelt / bump.rate);
+}
+
+PsiJet jetOf(const Bump& bump, const Vec3d& x)
+{
+    PsiJet jet{0.0, Vec3d(0.0), openvdb::Mat3d::zero()};
+    const Vec3d way = x - bump.place;
+    const double rate = bump.rate, t = rate * way.lengthSqr();
+    if (t >= bumpFelt) return jet;
+    jet.psi = bump.amplitude * std::exp(-t);
+    jet.gradient = -2.0 * rate * jet.psi * way;
+    for (int a = 0; a < 3; ++a) {
+        for (int b = 0; b < 3; ++b)
+            jet.hessian(a, b) = 4.0 * rate * rate * jet.psi * way[a] * way[b];
+        jet.hessian(a, a) -= 2.0 * rate * jet.psi;
+    }
+    return jet;
+}
 
 void Bumps::add(const Bump& bump)
 {
     const double edge = leafDim * voxelSize_;
-    const Vec3d reach(std::sqrt(bumpFelt / bump.rate));
+    const Vec3d reach(reachOf(bump));
     const Coord low = Coord::floor((bump.place - reach) / edge);
     const Coord high = Coord::floor((bump.place + reach) / edge);
     for (auto leaf = openvdb::CoordBBox(low, high).begin(); leaf; ++leaf)
@@ -42,25 +63,17 @@ void Bumps::addTo(const Coord& origin, float* psi) const
     }
 }
 
-double Bumps::at(const Vec3d& x, Vec3d* gradient, openvdb::Mat3d* hessian) const
+PsiJet Bumps::jet(const Vec3d& x) const
 {
-    if (leaves_.empty()) return 0.0;
+    PsiJet sum{0.0, Vec3d(0.0), openvdb::Mat3d::zero()};
+    if (leaves_.empty()) return sum;
     const auto found = leaves_.find(Coord::floor(x / voxelSize_) & ~(leafDim - 1));
-    if (found == leaves_.end()) return 0.0;
-    double sum = 0.0;
+    if (found == leaves_.end()) return sum;
     for (const std::int32_t i : found->second) {
-        const Bump& bump = bumps_[std::size_t(i)];
-        const Vec3d way = x - bump.place;
-        const double t = bump.rate * way.lengthSqr();
-        if (t >= bumpFelt) continue;
-        const double value = bump.amplitude * std::exp(-t);
-        sum += value;
-        if (gradient) *gradient -= 2.0 * bump.rate * value * way;
-        for (int a = 0; hessian && a < 3; ++a) {
-            for (int b = 0; b < 3; ++b)
-                (*hessian)(a, b) += 4.0 * bump.rate * bump.rate * value * way[a] * way[b];
-            (*hessian)(a, a) -= 2.0 * bump.rate * value;
-        }
+        const PsiJet bump = jetOf(bumps_[std::size_t(i)], x);
+        sum.psi += bump.psi;
+        sum.gradient += bump.gradient;
+        sum.hessian += bump.hessian;
     }
     return sum;
 }

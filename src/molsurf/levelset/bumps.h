@@ -5,6 +5,7 @@
 /// Gaussians that are added to psi at single places.
 
 #include "molsurf/grid/leaf_table.h"
+#include "molsurf/levelset/psi_jet.h"
 
 #include <openvdb/Types.h>
 
@@ -21,6 +22,12 @@ struct Bump {
     double amplitude;     ///< no unit
     double rate;          ///< [1/Å^2]
 };
+
+/// How far from its place a bump counts; beyond this it is below e^-16 of its amplitude [Å].
+double reachOf(const Bump& bump);
+
+/// A bump at a point with its derivatives; zero beyond its reach.
+PsiJet jetOf(const Bump& bump, const openvdb::Vec3d& x);
 
 /// Bumps, found by the leaves that they reach.
 class Bumps
@@ -40,10 +47,10 @@ public:
     void addTo(const openvdb::Coord& origin, float* psi) const;
 
     /// Their sum at a point.
-    /// @param[in,out] gradient  null, or theirs is added [1/Å]
-    /// @param[in,out] hessian   null, or theirs is added [1/Å^2]
-    double at(const openvdb::Vec3d& x, openvdb::Vec3d* gradient = nullptr,
-              openvdb::Mat3d* hessian = nullptr) const;
+    double at(const openvdb::Vec3d& x) const { return jet(x).psi; }
+
+    /// With its derivatives.
+    PsiJet jet(const openvdb::Vec3d& x) const;
 
 private:
     double voxelSize_;

@@ -123,10 +123,10 @@ public:
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Point& p = points[i];
             const PsiSample s = sampleTerms(terms, p.x, p.y, p.z, scratch);
-            openvdb::Vec3d gradient = openvdb::Vec3d(s.x, s.y, s.z) / h;
+            const openvdb::Vec3d gradient = openvdb::Vec3d(s.x, s.y, s.z) / h;
             const openvdb::Vec3d x = (origin.asVec3d() + openvdb::Vec3d(p.x, p.y, p.z)) * h;
-            const double added = bumps_.at(x, &gradient);
-            f(i, s.psi + float(added), float(gradient.lengthSqr()));
+            const PsiJet added = bumps_.jet(x);
+            f(i, s.psi + float(added.psi), float((gradient + added.gradient).lengthSqr()));
         }
     }
 
@@ -164,9 +164,8 @@ public:
     /// With bumps.
     PsiJet jetWithBumps(const openvdb::Vec3d& x) const
     {
-        PsiJet jet = this->jet(x);
-        jet.psi += bumps_.at(x, &jet.gradient, &jet.hessian);
-        return jet;
+        const PsiJet jet = this->jet(x), added = bumps_.jet(x);
+        return {jet.psi + added.psi, jet.gradient + added.gradient, jet.hessian + added.hessian};
     }
 
 private:

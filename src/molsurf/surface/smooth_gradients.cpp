@@ -106,19 +106,6 @@ private:
     Vec3d up_, along_; // N = grad psi/|grad psi| and Hess psi N
 };
 
-/// A bump at a point with its derivatives.
-PsiJet jetOf(const Bump& bump, const Vec3d& x)
-{
-    const Vec3d way = x - bump.place;
-    const double rate = bump.rate, value = bump.amplitude * std::exp(-rate * way.lengthSqr());
-    PsiJet jet{value, -2.0 * rate * value * way, Mat3d::zero()};
-    for (int a = 0; a < 3; ++a) {
-        for (int b = 0; b < 3; ++b) jet.hessian(a, b) = 4.0 * rate * rate * value * way[a] * way[b];
-        jet.hessian(a, a) -= 2.0 * rate * value;
-    }
-    return jet;
-}
-
 /// The bumps that move with balls, by the cells of space that they reach.
 class MovingBumps
 {
@@ -126,7 +113,7 @@ public:
     explicit MovingBumps(std::vector<BumpMotion> motions) : motions_(std::move(motions))
     {
         for (const BumpMotion& motion : motions_) {
-            const Vec3d reach(std::sqrt(felt / motion.bump.rate));
+            const Vec3d reach(reachOf(motion.bump));
             const openvdb::CoordBBox cells(cellOf(motion.bump.place - reach),
                                            cellOf(motion.bump.place + reach));
             for (auto cell = cells.begin(); cell; ++cell) cells_[*cell].push_back(&motion);
@@ -141,7 +128,7 @@ public:
         const auto found = cells_.find(cellOf(x));
         if (found == cells_.end()) return;
         for (const BumpMotion* motion : found->second) {
-            if (motion->bump.rate * (x - motion->bump.place).lengthSqr() > felt) continue;
+            if ((x - motion->bump.place).length() > reachOf(motion->bump)) continue;
             Vec3d change(0.0);
             for (int a = 0; a < 3; ++a)
                 change[a] = levelChange(jet, level, jetChange(*motion, a, x));
@@ -150,8 +137,6 @@ public:
     }
 
 private:
-    static constexpr double felt = 16.0; // exponent beyond which a bump is not felt
-
     static openvdb::Coord cellOf(const Vec3d& x)
     {
         constexpr double edge = 4.0; // [Å]
