@@ -146,35 +146,48 @@ MOLSURF_KERNEL std::size_t firstDoubtful(const Fans& fans, std::size_t v)
     return v;
 }
 
+/// How many numbers of a sorted list equal one.
+std::size_t countOf(const std::vector<std::int32_t>& sorted, std::int32_t number)
+{
+    const auto [first, end] = std::equal_range(sorted.begin(), sorted.end(), number);
+    return std::size_t(end - first);
+}
+
 /// Checks a fan by walking about its vertex from triangle to triangle; if that is no one turn, by
 /// counting the triangles that run out and in along each edge.
 /// @param[in] k  number of the fan
 Topology checkFan(const Fans& fans, std::size_t k)
 {
-    const std::int32_t *out = fans.out.data() + fans.begins[k],
-                       *in = fans.in.data() + fans.begins[k];
-    const std::size_t n = fans.begins[k + 1] - fans.begins[k];
+    const std::uint32_t begin = fans.begins[k], end = fans.begins[k + 1], n = end - begin;
     Topology result;
-    if (n == 0 || n > 64) {
-        result.manifold = n == 0;
-        return result;
-    }
+    if (n == 0) return result;
+    std::vector<std::pair<std::int32_t, std::int32_t>> sides; // (out, in), by `out`
+    for (std::uint32_t i = begin; i < end; ++i) sides.emplace_back(fans.out[i], fans.in[i]);
+    std::sort(sides.begin(), sides.end());
     // One turn about v, as above.
-    std::size_t steps = 0;
-    std::int32_t at = out[0];
+    const std::int32_t start = sides[0].first;
+    std::uint32_t steps = 0;
+    std::int32_t at = start;
     do {
-        const std::int32_t* here = std::find(out, out + n, at);
-        if (here == out + n) break;
-        at = in[here - out];
+        const auto here =
+            std::lower_bound(sides.begin(), sides.end(), at,
+                             [](const auto& side, std::int32_t out) { return side.first < out; });
+        if (here == sides.end() || here->first != at) break;
+        at = here->second;
         ++steps;
-    } while (at != out[0] && steps < n);
-    if (steps == n && at == out[0]) return result;
+    } while (at != start && steps < n);
+    if (steps == n && at == start) return result;
     result.manifold = false;
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto ins = std::count(in, in + n, out[i]), outs = std::count(out, out + n, in[i]);
-        const auto sameOut = std::count(out, out + n, out[i]);
-        if (ins + sameOut != 2) result.closed = false;
-        if (ins != 1 || outs != 1 || sameOut != 1) result.oriented = false;
+    std::vector<std::int32_t> outs, ins;
+    for (const auto& [out, in] : sides) {
+        outs.push_back(out);
+        ins.push_back(in);
+    }
+    std::sort(ins.begin(), ins.end());
+    for (const auto& [out, in] : sides) {
+        const std::size_t insOfOut = countOf(ins, out), sameOut = countOf(outs, out);
+        if (insOfOut + sameOut != 2) result.closed = false;
+        if (insOfOut != 1 || countOf(outs, in) != 1 || sameOut != 1) result.oriented = false;
     }
     return result;
 }

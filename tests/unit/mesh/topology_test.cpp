@@ -263,10 +263,15 @@ Mesh doubleCone(std::uint32_t n)
 // Small fans are seen at a glance, large ones are not.
 TEST(CheckTopology, OfFansOfAllSizes)
 {
-    for (std::uint32_t n = 3; n <= 64; ++n) {
+    for (std::uint32_t n = 3; n <= 80; ++n) {
         const Mesh mesh = doubleCone(n);
         const Topology t = check(mesh);
         EXPECT_TRUE(t.closed && t.oriented && t.manifold) << n;
+        Mesh open = mesh;
+        open.triangles.pop_back();
+        std::vector<char> tip(mesh.positions.size(), 0);
+        tip[1] = 1;
+        EXPECT_FALSE(checkTopology(open, tip, Progress()).closed) << n;
         for (std::uint32_t i = 0; i < 2 * n; i += 5) {
             Mesh torn = mesh;
             torn.triangles.erase(torn.triangles.begin() + i);
