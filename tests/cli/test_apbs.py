@@ -110,6 +110,15 @@ class Apbs(ToolTest):
         run = self.folder_of([(0, 0, 0, 1, 3), (10, 0, 0, 1, 1)], *self.grid("33 33 33", "48 48 48", "mol 1"))
         self.assertIn("gcent 5 0 0\n", (run / "apbs.in").read_text())
 
+    def test_the_lattice_is_of_the_first_calculation_and_its_last_words(self):
+        """As APBS takes them."""
+        (self.folder / "two.in").write_text("elec\ndime 33 33 33\nglen 20 20 20\ngcent mol 1\ngcent 1 2 3\nend\n"
+                                            "elec\ndime 65 65 65\nglen 40 40 40\ngcent mol 1\nend\n")
+        run = self.folder_of([(0, 0, 0, 1, 3)], "--apbs-grid", "two.in")
+        text = (run / "apbs.in").read_text()
+        for line in ("dime 33 33 33\n", "glen 20 20 20\n", "gcent 1 2 3\n"):
+            self.assertIn(line, text)
+
     def test_charges_without_a_radius_come_along(self):
         run = self.folder_of([(0, 0, 0, -0.5, 1.7), (1, 0, 0, 0.5, 0.0)])
         rows = [line.split() for line in (run / "ion.charges.pqr").read_text().splitlines() if line.startswith("ATOM")]

@@ -141,13 +141,14 @@ ApbsGrid readApbsGrid(const std::string& path, const PointCharges& charges)
     std::ifstream file(path);
     if (!file) refuseGrid(path, 0, "cannot be read, expected an input file of APBS");
     std::map<std::string, std::array<double, 3>> found;
-    int line = 0;
+    int line = 0, calculations = 0;
     for (std::string text; std::getline(file, text);) {
         ++line;
         std::istringstream words(text.substr(0, text.find('#')));
         std::string word, second;
         words >> word;
         word = lowered(word);
+        if (word == "elec" && ++calculations == 2) break;
         const bool fine = word == "fglen" || word == "fgcent";
         if (fine) word.erase(0, 1);
         if (word != "dime" && word != "glen" && word != "gcent") continue;
@@ -168,7 +169,7 @@ ApbsGrid readApbsGrid(const std::string& path, const PointCharges& charges)
             if (word == "glen" && n <= 0.0)
                 refuseGrid(path, line, formatted("expected lengths above 0, got %g", n));
         }
-        found.emplace(word, *numbers);
+        found[word] = *numbers;
     }
     ApbsGrid grid;
     for (const char* word : {"dime", "glen", "gcent"})

@@ -40,7 +40,8 @@ struct ApbsGrid {
 /// they would take APBS more than 400 MB, of the finest axis first.
 ApbsGrid gridAround(const PointCharges& charges);
 
-/// Reads dime, glen (or fglen) and gcent (or fgcent) from an input file of APBS.
+/// Reads dime, glen (or fglen) and gcent (or fgcent) of the first calculation in an input file of
+/// APBS; the last one of each counts, as APBS takes it.
 /// @throws Error(ErrorKind::Input) with the line, if one is missing or wrong
 ApbsGrid readApbsGrid(const std::string& path, const PointCharges& charges);
 
