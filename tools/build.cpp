@@ -16,6 +16,7 @@
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/io/made_folders.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/check_balls.h"
@@ -163,10 +164,8 @@ void dropGrids(MolecularSurface& result)
 // other atoms follow when they are written.
 void centerMesh(Call& call, MolecularSurface& result)
 {
-    openvdb::BBoxd box;
-    for (const openvdb::Vec3f& p : result.mesh.positions) box.expand(openvdb::Vec3d(p));
-    const openvdb::Vec3d center = call.frame > 0 ? call.scene.center : box.getCenter();
-    for (openvdb::Vec3f& p : result.mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
+    const openvdb::Vec3d center =
+        moveToOrigin(result.mesh, call.frame > 0 ? &call.scene.center : nullptr);
     for (PictureNote& note : call.picture.notes) {
         note.from -= center;
         if (note.to) *note.to -= center;
@@ -335,42 +334,6 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     return report;
 }
 
-/// The folders of --for apbs, which are made; those that stay empty go again.
-class SolverFolders
-{
-public:
-    explicit SolverFolders(const Call& call)
-    {
-        namespace fs = std::filesystem;
-        for (const Output& output : call.outputs) {
-            if (!output.holds(Solver)) continue;
-            std::vector<std::string> missing; // the innermost first
-            for (fs::path folder = fs::path(output.path).parent_path();
-                 !folder.empty() && !fs::exists(folder); folder = folder.parent_path())
-                missing.push_back(folder.string());
-            if (missing.empty()) continue;
-            std::error_code problem;
-            fs::create_directories(missing.front(), problem);
-            if (problem)
-                throw Error(ErrorKind::Output,
-                            "cannot make the folder " + missing.front() + ": " + problem.message());
-            made_.insert(made_.end(), missing.begin(), missing.end());
-        }
-    }
-    SolverFolders(const SolverFolders&) = delete;
-    SolverFolders& operator=(const SolverFolders&) = delete;
-    ~SolverFolders()
-    {
-        std::error_code ignored;
-        for (const std::string& folder : made_) std::filesystem::remove(folder, ignored);
-    }
-
-    const std::vector<std::string>& made() const { return made_; }
-
-private:
-    std::vector<std::string> made_;
-};
-
 /// A line on the lattice, and how to go on.
 void saySolver(const Call& call)
 {
@@ -386,7 +349,10 @@ void saySolver(const Call& call)
 
 Report buildSurface(Call call, Clock::time_point start)
 {
-    const SolverFolders folders(call);
+    MadeFolders folders;
+    for (const Output& output : call.outputs)
+        if (output.holds(Solver))
+            folders.make(std::filesystem::path(output.path).parent_path().string());
     prepareOutputs(call, folders.made());
     for (const Panel& panel : call.panels)
         if (!panel.file.empty()) failIfNoFile(panel.file);

@@ -7,6 +7,7 @@
 #include "molsurf/error.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/holds.h"
+#include "molsurf/io/made_folders.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/read_mesh.h"
 #include "molsurf/io/scene.h"
@@ -134,14 +135,10 @@ public:
 
     /// Moves the middle of the mesh's box to the origin.
     /// @return where it was [Å]
-    openvdb::Vec3d moveToOrigin()
+    openvdb::Vec3d center()
     {
         if (!own_) own_ = shown_.surface->mesh;
-        openvdb::BBoxd box;
-        for (const openvdb::Vec3f& p : own_->positions) box.expand(openvdb::Vec3d(p));
-        const openvdb::Vec3d center = box.getCenter();
-        for (openvdb::Vec3f& p : own_->positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - center);
-        return center;
+        return moveToOrigin(*own_);
     }
 
     DrawnSurface drawn() const
@@ -235,11 +232,8 @@ void writeSolverFiles(const ShownSurface& shown, const std::string& folder, cons
                         look.dielectric,
                         displayName(inputStem(input)) + ", surface " + nameOf(shown.options->kind),
                         pathOf};
-    std::error_code problem;
-    std::filesystem::create_directories(folder, problem);
-    if (problem)
-        throw Error(ErrorKind::Output,
-                    "cannot make the folder " + folder + ": " + problem.message());
+    MadeFolders folders; // before the files in it
+    folders.make(folder);
     std::deque<OutputFile> files;
     std::vector<OutputFile*> all;
     for (const SolverFile& row : solverFiles()) {
@@ -262,7 +256,7 @@ void writeMeshFile(const ShownSurface& shown, const MeshFormat& format, const st
 {
     FileSurface made(shown, look);
     if (look.crisp) made.findBorders(true);
-    if (look.center) made.moveToOrigin();
+    if (look.center) made.center();
     const std::string name = std::filesystem::path(path).stem().string();
     OutputFile file(path, replace);
     if (format.holds & holds::SceneUnits)
@@ -359,7 +353,7 @@ void writeSurface(const std::vector<ShownSurface>& surfaces, const std::string& 
         return writeSolverFiles(shown, path, lookOf(settings, path, holds::Solver), replace);
     if (ending == ".vdb") {
         FileLook look = lookOf(settings, path, holds::heldByVdb);
-        if (look.center) look.scene.center = FileSurface(shown, look).moveToOrigin();
+        if (look.center) look.scene.center = FileSurface(shown, look).center();
         return writeGrids(*shown.surface, path, look.scene, look.center, replace);
     }
     if (ending == ".json") {

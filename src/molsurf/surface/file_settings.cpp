@@ -122,4 +122,13 @@ void keepWalls(Walls walls, const Progress& progress, Mesh& mesh)
         throw Error(ErrorKind::Input, "`walls` cavities: the surface has no cavity");
 }
 
+openvdb::Vec3d moveToOrigin(Mesh& mesh, const openvdb::Vec3d* center)
+{
+    openvdb::BBoxd box;
+    for (const openvdb::Vec3f& p : mesh.positions) box.expand(openvdb::Vec3d(p));
+    const openvdb::Vec3d origin = center ? *center : box.getCenter();
+    for (openvdb::Vec3f& p : mesh.positions) p = openvdb::Vec3f(openvdb::Vec3d(p) - origin);
+    return origin;
+}
+
 } // namespace molsurf

@@ -51,4 +51,9 @@ const std::vector<FileSetting>& fileSettings();
 /// @throws Error(ErrorKind::Input) if none stays
 void keepWalls(Walls walls, const Progress& progress, Mesh& mesh);
 
+/// Moves a mesh so that the middle of its box is the origin.
+/// @param[in] center  null, or the point that becomes the origin instead [Å]
+/// @return where the origin was taken from [Å]
+openvdb::Vec3d moveToOrigin(Mesh& mesh, const openvdb::Vec3d* center = nullptr);
+
 } // namespace molsurf
