@@ -159,7 +159,7 @@ ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh
     if (cut || shows([](const Output& output) { return output.holds(Pixels); }))
         shown.borders =
             bordersOf(call.options.color, atoms,
-                      asMeshed(placedBalls(atoms, originOf(call)), call.options), mesh, progress);
+                      asMeshed(movedBalls(atoms, originOf(call)), call.options), mesh, progress);
     if (!cut || !shown.borders) return shown;
     shown.crisp = crispMesh(mesh, *shown.borders, atoms, call.options, progress);
     return shown;

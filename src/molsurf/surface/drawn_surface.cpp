@@ -17,7 +17,7 @@
 namespace molsurf
 {
 
-std::vector<Ball> placedBalls(const BallSet& atoms, const openvdb::Vec3d& origin)
+std::vector<Ball> movedBalls(const BallSet& atoms, const openvdb::Vec3d& origin)
 {
     std::vector<Ball> balls = atoms.balls;
     for (Ball& ball : balls) ball.center -= origin;
@@ -231,7 +231,7 @@ HtmlPage pageOf(const DrawnSurface& surface, const std::string& title, const std
     page.name = surface.name;
     page.opacity = surface.look.opacity;
     const std::vector<Ball> balls =
-        surface.whole ? surface.whole->balls : placedBalls(atoms, surface.origin);
+        surface.whole ? surface.whole->balls : movedBalls(atoms, surface.origin);
     if (atoms.names) nameAtoms(*atoms.names, balls, surface.mesh, progress, page);
     for (std::int32_t& ball : page.ballOf)
         if (surface.whole && ball >= 0)

@@ -40,8 +40,8 @@ struct DrawnSurface {
     bool ownEye = false;            ///< whether its panel does not look from where the first does
 };
 
-/// The balls where they lie to the mesh.
-std::vector<Ball> placedBalls(const BallSet& atoms, const openvdb::Vec3d& origin);
+/// The balls with a point as their origin, as the mesh has it.
+std::vector<Ball> movedBalls(const BallSet& atoms, const openvdb::Vec3d& origin);
 
 /// The mesh with triangles cut where colours meet.
 /// @param[in] owners   of the colours, where the mesh is
