@@ -142,7 +142,9 @@ TEST(OperandOfGrids, ASplineOfAnotherSurfaceIsLeftOut)
     const auto grid = sphereGrid(3.0, centre, 0.25, "surface");
     for (const auto& other :
          {sphereGrid(2.0, centre, 0.25, "other"), sphereGrid(3.0, Vec3d(9.0), 0.25, "other"),
-          sphereGrid(3.0, Vec3d(1.0, 0.0, 0.0), 0.25, "other")}) {
+          sphereGrid(3.0, Vec3d(1.0, 0.0, 0.0), 0.25, "other"),
+          sphereGrid(3.03, centre, 0.25, "other"),
+          sphereGrid(3.0, centre + Vec3d(0.05, 0.0, 0.0), 0.25, "other")}) {
         const auto spline = splineGrid(splineThrough(*other, Progress()));
         const Operand found = operandOf({grid, spline}, Progress());
         EXPECT_NEAR(found.size.area, 36.0 * M_PI, 0.1);
@@ -152,6 +154,19 @@ TEST(OperandOfGrids, ASplineOfAnotherSurfaceIsLeftOut)
     }
     const auto own = splineGrid(splineThrough(*grid, Progress()));
     EXPECT_TRUE(operandOf({grid, own}, Progress()).warnings.empty());
+}
+
+TEST(OperandOfGrids, ValuesThatAreNoDistancesAreSaid)
+{
+    for (const float times : {0.1f, 0.7f, 1.0f, 1.5f, 10.0f}) {
+        const auto grid = sphereGrid(3.0, centre, 0.25, "surface");
+        for (auto it = grid->beginValueOn(); it; ++it) it.setValue(times * *it);
+        const std::vector<std::string> warnings = operandOf({grid}, Progress()).warnings;
+        ASSERT_EQ(warnings.size(), times == 1.0f ? 0u : 1u) << times;
+        if (!warnings.empty())
+            EXPECT_NE(warnings[0].find("grid 'surface': expected distances in Å"),
+                      std::string::npos);
+    }
 }
 
 TEST(OperandOfGrids, FarFromTheOrigin)
