@@ -22,8 +22,8 @@ struct PassageField {
     std::function<PsiJet(const openvdb::Vec3d&, double)> sharpened;
 };
 
-/// Counts the passages and voids that the field closes although no ball covers them.
-/// Those in one pore are one.
+/// Counts the passages and voids that the field closes although no ball covers them, and in which
+/// the surface is closed too: it lies rule.inset farther inside. Those in one pore are one.
 /// @param[in] gaps  distinct
 /// @param[in,out] report  gets closedByField, widestClosed and opensBelow
 void countClosedByField(const std::vector<Gap>& gaps, const PassageField& field,

@@ -35,6 +35,7 @@ struct GapRule {
     double area = 0.0;        ///< lambda of the area regulariser
     bool countsClosed = true; ///< whether the report has what the field closes: not where balls
                               ///< have rates of their own
+    double inset = 0.0;       ///< how far inside of psi = 0 the surface lies [Å]
 };
 
 /// The gaps farther than this from psi = 0 are none.

@@ -96,6 +96,18 @@ TEST(ClosedPassages, OfATubeAreOne)
     EXPECT_EQ(*gapsOf(two, 0.5, 0.5).closedByField, 2u);
 }
 
+/// A ring that the field closes at psi = 0 is open where a surface lies a probe radius inside of
+/// that; a long tube is closed there too.
+TEST(ClosedPassages, AreNotThoseWhereTheSurfaceIsOpen)
+{
+    GapRule inside{0.01};
+    inside.inset = 1.4;
+    EXPECT_EQ(*gapsOf(tube(1, grown + 0.3), 0.5, 0.5).closedByField, 1u);
+    EXPECT_EQ(*gapsOf(tube(1, grown + 0.3), 0.5, 0.5, inside).closedByField, 0u);
+    EXPECT_EQ(*gapsOf(tube(12, grown + 0.8), 0.5, 0.5, inside).closedByField, 1u);
+    EXPECT_EQ(*gapsOf(cage(60, grown + 0.8), 0.5, 0.5, inside).closedByField, 1u);
+}
+
 /// Voids beside each other are two, however near, and the widest counts.
 TEST(ClosedPassages, OfTwoCagesThatTouchAreTwo)
 {
