@@ -18,6 +18,8 @@
 #include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace molsurf
@@ -153,6 +155,43 @@ void measureWhole(const Placement::Unit& unit, const BorderFit& fit, const Mesh&
         int(std::int64_t(surface.vertices + surface.triangles) - std::int64_t(edges));
 }
 
+/// How many units meet at a place: those whose rotations leave it where it is.
+std::size_t unitsAt(const Placement& placement, const Vec3d& x)
+{
+    constexpr double apart = 0.01; // [Å]
+    const auto& motions = placement.instances;
+    return std::size_t(std::count_if(motions.begin(), motions.end(), [&](const Instance& motion) {
+        return (motion.placed(x) - x).length() < apart;
+    }));
+}
+
+/// The Euler number of the whole by the part that a unit owns, before its border is glued: that of
+/// `order` parts, less a half for each of the d parts that meet at a corner of the border, of which
+/// the whole has one. d is 3, and n on an n-fold axis.
+/// @return nothing if no whole number comes out, so that the parts do not fit each other
+std::optional<int> eulerOfParts(const Placement& placement, const CutMesh& part)
+{
+    const auto vertices = double(part.mesh.positions.size());
+    const auto triangles = double(part.mesh.triangles.size());
+    const double edges = 0.5 * (3.0 * triangles + double(part.border.size()));
+    double sum = vertices - edges + triangles;
+    std::vector<Vec3d> axes; // corners on them
+    for (const BorderEdge& edge : part.border) {
+        const std::int32_t before = part.border[edge.previous].owner;
+        if (before == edge.owner) continue;
+        const Vec3d x(part.mesh.positions[edge.from]);
+        const std::size_t units = unitsAt(placement, x);
+        const auto isNear = [&](const Vec3d& y) { return (x - y).length() < 0.02; };
+        if (units > 1 && std::any_of(axes.begin(), axes.end(), isNear)) continue;
+        if (units > 1) axes.push_back(x);
+        sum += 1.0 / double(units > 1 ? units : 3) - 0.5;
+    }
+    sum *= double(placement.order());
+    const double whole = std::round(sum);
+    if (std::abs(sum - whole) > 1e-3) return {};
+    return int(whole);
+}
+
 /// @param[in] area  of the unit's surface [Å^2]
 /// @throws Error(ErrorKind::Check) if the whole is not closed, or by too much that was not found
 void checkFit(const BorderFit& fit, double area, const SurfaceReport& surface)
@@ -206,6 +245,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
                                         "[hint: a smaller `voxel`]");
     SurfaceReport& surface = run.result().report.surface;
     const UnitPieces found = unitPieces(part.mesh, unit.centre, surface, progress);
+    const std::optional<int> euler = eulerOfParts(placement, part);
     const BorderFit fit = fitBorder(placement, options.voxel, part);
     std::vector<float> slopes;
     for (const std::uint32_t v : part.sources) slopes.push_back(stats.slopes[v]);
@@ -226,8 +266,8 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
         surface.meshArea = surface.area;
         surface.meshVolume = surface.volume;
         known = takeClosedForm(atoms, grown, progress, surface);
-    } else if (isClosedForm(options)) {
-        dropTopology(surface);
+    } else if (isClosedForm(options) || euler != surface.eulerCharacteristic) {
+        dropTopology(surface); // the mesh has its own, where borders were glued otherwise
     }
     checkFit(fit, area / double(placement.order()), surface);
     watch.stop("unit");

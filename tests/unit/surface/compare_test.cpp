@@ -163,9 +163,8 @@ TEST(OperandOfGrids, ValuesThatAreNoDistancesAreSaid)
         for (auto it = grid->beginValueOn(); it; ++it) it.setValue(times * *it);
         const std::vector<std::string> warnings = operandOf({grid}, Progress()).warnings;
         ASSERT_EQ(warnings.size(), times == 1.0f ? 0u : 1u) << times;
-        if (!warnings.empty())
-            EXPECT_NE(warnings[0].find("grid 'surface': expected distances in Å"),
-                      std::string::npos);
+        for (const std::string& warning : warnings)
+            EXPECT_EQ(warning.find("grid 'surface': expected distances in Å"), 0u) << warning;
     }
 }
 
