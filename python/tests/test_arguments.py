@@ -200,6 +200,28 @@ def test_what_was_written_into_views_is_checked(crambin, tmp_path):
     assert message(lambda: m.surface(), ms.InputError).startswith("ball 3: expected a radius above 0")
 
 
+def test_forces_need_the_faces_that_they_were_made_with():
+    def flat(s):
+        s.faces[:] = 0
+
+    def copied(s):
+        s.faces[:, 1] = s.faces[:, 0]
+
+    def mixed(s):
+        s.faces[:] = np.random.default_rng(1).integers(0, len(s.vertices), s.faces.shape)
+
+    def turned(s):
+        s.faces[0] = s.faces[0, ::-1].copy()
+    for kind in ("variational", "smooth-sas"):
+        for change, said in ((flat, "face 0: expected three vertices"), (copied, "face 0: expected three vertices"),
+                             (mixed, "face"), (turned, "faces: expected a closed, oriented manifold, got neighbours")):
+            s = ms.surface(X, R, kind=kind, voxel=1)
+            change(s)
+            assert message(lambda: s.forces(1, 1), ms.InputError).startswith(said)
+    s = ms.surface(X, R, voxel=1)
+    assert np.isfinite(s.forces(1, 1)).all()
+
+
 def test_what_people_write_first(tmp_path, crambin):
     """Messages say what to write instead."""
     with pytest.raises(TypeError, match=r"'surface' \[hint: did you mean kind\?\]"):

@@ -3,6 +3,7 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/mesh/topology.h"
 
 #include <cmath>
 #include <string>
@@ -71,6 +72,23 @@ void checkArrays(const Mesh& mesh)
         checkLength(scalar.name, scalar.values.size(), vertices);
     for (const auto& label : mesh.labels) checkLength(label.name, label.values.size(), vertices);
     if (!mesh.colors.empty()) checkLength("color", mesh.colors.size(), vertices);
+}
+
+void checkManifold(const Mesh& mesh, const Progress& progress)
+{
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& t = mesh.triangles[i];
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+            refuse("face", i, "three vertices, each another one");
+    }
+    const Topology found = checkTopology(mesh, progress);
+    const char* wrong = !found.closed     ? "edges that do not have two triangles"
+                        : !found.oriented ? "neighbours that run round in opposite ways"
+                        : !found.manifold ? "vertices where sheets meet"
+                                          : nullptr;
+    if (wrong)
+        throw Error(ErrorKind::Input,
+                    std::string("faces: expected a closed, oriented manifold, got ") + wrong);
 }
 
 } // namespace molsurf

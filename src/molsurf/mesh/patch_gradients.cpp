@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/patch_gradients.h"
 
+#include "molsurf/mesh/check_arrays.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +27,7 @@ std::uint64_t keyOf(std::uint32_t a, std::uint32_t b)
     return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-/// The edges of a mesh, each once.
+/// The edges of a closed, oriented mesh, each once: one of its two triangles runs upward.
 std::vector<std::uint64_t> edgesOf(const Mesh& mesh)
 {
     std::vector<std::uint64_t> edges;
@@ -80,8 +82,9 @@ void addPoint(const std::array<std::size_t, 6>& nodes, const Shapes& shapes, dou
 
 } // namespace
 
-PatchNodes patchNodes(const Mesh& mesh)
+PatchNodes patchNodes(const Mesh& mesh, const Progress& progress)
 {
+    checkManifold(mesh, progress);
     const std::vector<std::uint64_t> edges = edgesOf(mesh);
     const std::size_t vertices = mesh.positions.size();
     PatchNodes out;

@@ -5,6 +5,7 @@
 /// How area and volume of a mesh of curved patches change with the points that span them.
 
 #include "molsurf/mesh.h"
+#include "molsurf/progress.h"
 
 #include <vector>
 
@@ -21,7 +22,8 @@ struct PatchNodes {
 };
 
 /// Finds the points and the derivatives by them.
-/// @param[in] mesh  closed, with normals
-PatchNodes patchNodes(const Mesh& mesh);
+/// @param[in] mesh  with normals, and corners that are vertices
+/// @throws Error(ErrorKind::Input) if it is no closed, oriented manifold
+PatchNodes patchNodes(const Mesh& mesh, const Progress& progress = Progress());
 
 } // namespace molsurf

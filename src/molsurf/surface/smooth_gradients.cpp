@@ -299,7 +299,7 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
     const Interface interface {
         sum, bumps, offsetOf(spec), leastSlope, weights
     };
-    const PatchNodes nodes = patchNodes(mesh);
+    const PatchNodes nodes = patchNodes(mesh, progress);
     std::vector<Sums> parts((nodes.points.size() + chunk - 1) / chunk);
     parallelFor(parts.size(), progress, [&](std::size_t c) {
         thread_local PointTerms terms;

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace molsurf
@@ -87,6 +88,60 @@ TEST(CheckArrays, AttributesHaveOneValueAVertex)
     EXPECT_NE(errorOf([](Mesh& m) { m.labels[0].values.push_back(1); }).find("'atom_id'"),
               std::string::npos);
     EXPECT_NE(errorOf([](Mesh& m) { m.colors.pop_back(); }).find("'color'"), std::string::npos);
+}
+
+std::string manifoldErrorOf(const std::function<void(Mesh&)>& change)
+{
+    Mesh mesh = whole();
+    change(mesh);
+    try {
+        checkManifold(mesh, Progress());
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::Input);
+        return e.what();
+    }
+    return "";
+}
+
+TEST(CheckManifold, ClosedOrientedManifoldsPass)
+{
+    EXPECT_EQ(manifoldErrorOf([](Mesh&) {}), "");
+    EXPECT_EQ(manifoldErrorOf([](Mesh& m) { m = Mesh(); }), "");
+    EXPECT_EQ(manifoldErrorOf([](Mesh& m) { m.positions.emplace_back(9, 9, 9); }), "");
+}
+
+// A triangle whose edges fold onto each other is a turn about each of its vertices.
+TEST(CheckManifold, TrianglesHaveThreeVertices)
+{
+    EXPECT_EQ(manifoldErrorOf([](Mesh& m) {
+                  m.triangles[2] = {0, 0, 0};
+              }),
+              "face 2: expected three vertices, each another one");
+    EXPECT_EQ(manifoldErrorOf([](Mesh& m) {
+                  m.triangles.push_back({8, 9, 8});
+                  m.positions.resize(10);
+              }),
+              "face 12: expected three vertices, each another one");
+}
+
+TEST(CheckManifold, SaysWhatElseTheTrianglesAre)
+{
+    const std::string expected = "faces: expected a closed, oriented manifold, got ";
+    EXPECT_EQ(manifoldErrorOf([](Mesh& m) { m.triangles.pop_back(); }),
+              expected + "edges that do not have two triangles");
+    EXPECT_EQ(manifoldErrorOf([](Mesh& m) { m.triangles.push_back(m.triangles[0]); }),
+              expected + "edges that do not have two triangles");
+    EXPECT_EQ(manifoldErrorOf([](Mesh& m) { std::swap(m.triangles[3][0], m.triangles[3][1]); }),
+              expected + "neighbours that run round in opposite ways");
+    EXPECT_EQ(manifoldErrorOf([](Mesh& m) { // two boxes that share a corner
+                  const Mesh other = test::box({5, 5, 5}, {6, 6, 6});
+                  for (auto t : other.triangles) {
+                      for (std::uint32_t& v : t) v = v == 0 ? 7 : v + 7;
+                      m.triangles.push_back(t);
+                  }
+                  m.positions.resize(15);
+              }),
+              expected + "vertices where sheets meet");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/patch_gradients.h"
 
+#include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 
 #include "support/surfaces.h"
@@ -38,6 +39,17 @@ TEST(PatchNodes, DerivativesAreThoseOfWhatTheMeshMeasures)
     const SurfaceReport report = measure(mesh, Progress());
     EXPECT_NEAR(area, 2.0 * report.area, 1e-4 * report.area);
     EXPECT_NEAR(volume, 3.0 * report.volume, 1e-4 * report.volume);
+}
+
+// An edge that no triangle runs through upward is none of the nodes.
+TEST(PatchNodes, MeshesThatAreNoManifoldAreRefused)
+{
+    const Mesh whole = test::meshOf(test::sphere(2.3), 1.0);
+    Mesh flat = whole, mixed = whole, open = whole;
+    for (auto& t : flat.triangles) t = {0, 0, 0};
+    for (auto& t : mixed.triangles) t[1] = t[0] + 1 < whole.positions.size() ? t[0] + 1 : 0;
+    open.triangles.pop_back();
+    for (const Mesh& mesh : {flat, mixed, open}) EXPECT_THROW(patchNodes(mesh), Error);
 }
 
 } // namespace
