@@ -63,6 +63,32 @@ def test_wrong_balls(function, positions, radii, kind, said):
     assert message(lambda: function(positions, radii), kind).startswith(said)
 
 
+def masked(array):
+    out = np.ma.array(array)
+    out[1] = np.ma.masked
+    return out
+
+
+def test_masked_entries_are_no_data(ses, tmp_path):
+    """Also in lists of arrays; an array that masks none of its entries is one like any other."""
+    said = "expected no masked entries, got some"
+    for function in (ms.surface, ms.areas, ms.contacts):
+        for positions in (masked(X), list(masked(X)), tuple(map(np.ma.array, masked(X)))):
+            assert message(lambda: function(positions, R), ValueError) == f"positions: {said}"
+        assert message(lambda: function(X, masked(R)), ValueError) == f"radii: {said}"
+    assert message(lambda: ses.distance(masked(X)), ValueError) == f"points: {said}"
+    for mesh in ((masked(X), [[0, 1, 2]]), (X, masked([[0, 1, 2], [0, 2, 1]]))):
+        assert message(lambda: ms.compare(ses, mesh), ValueError) == f"b: {said}"
+    assert message(lambda: ms.radii(masked(["CA", "N"])), ValueError) == f"names: {said}"
+    for given in ({"view": masked(R)}, {"label": [(masked(R), "here")]}):
+        assert message(lambda: ses.picture(tmp_path / "a.png", **given), ValueError) == f"{[*given][0]}: {said}"
+    inputs = [("a", masked(X), R), ("b", X, masked(R)), ("c", np.ma.array(X), R), ("d", X, R)]
+    rows = list(ms.measure((0, inputs), kind="sas", grid=False))
+    assert [row["error"] for row in rows] == [f"ValueError: positions: {said}", f"ValueError: radii: {said}", None, None]
+    assert len({row["sha256"] for row in rows}) == 3 and rows[2]["area"] == rows[3]["area"]
+    assert np.array_equal(ms.areas(np.ma.array(X, mask=False), R), ms.areas(X, R))
+
+
 def test_a_million_atoms_in_a_list_are_not_printed():
     many = [["x"] * 3] * 1_000_000
     assert len(message(lambda: ms.surface(many, 1.0), TypeError)) < 100

@@ -34,7 +34,7 @@ def areas(positions, radii, probe):
     out = np.zeros(len(radii))
     kept = radii > 0
     if kept.any():
-        out[kept] = _surface.areas(np.asarray(positions)[kept], radii[kept], probe)
+        out[kept] = _surface.areas(_arrays.points(positions, "positions")[kept], radii[kept], probe)
     return out
 
 

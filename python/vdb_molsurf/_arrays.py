@@ -1,7 +1,21 @@
 # SPDX-License-Identifier: MPL-2.0
 """Arguments as arrays of the type that the module takes. Errors say type or shape, never the values."""
 
+import itertools
+
 import numpy as np
+
+
+def _refuse_masked(values, name):
+    """Refuses masked entries, in lists of arrays too: NumPy takes what lies under a mask for data."""
+    parts = [values]
+    while parts:
+        kinds = set(map(type, parts))  # few, of many parts
+        if any(issubclass(kind, np.ma.MaskedArray) for kind in kinds) and any(map(np.ma.is_masked, parts)):
+            raise ValueError(f"{name}: expected no masked entries, got some")
+        if not any(issubclass(kind, (list, tuple)) for kind in kinds):
+            return
+        parts = list(itertools.chain.from_iterable(part for part in parts if isinstance(part, (list, tuple))))
 
 
 def numbers(values, name):
@@ -18,6 +32,7 @@ def numbers(values, name):
         kind = "complex numbers" if array.dtype.kind == "c" else array.dtype.name
         raise TypeError(f"{name}: expected numbers, got " +
                         (f"an array of {kind}" if hasattr(values, "dtype") else f"a {type(values).__name__} of {kind}"))
+    _refuse_masked(values, name)
     return np.asarray(array, dtype=np.float64, order="C")
 
 
@@ -29,6 +44,26 @@ def points(values, name):
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name}: expected shape (n, 3), got {array.shape}")
     return array
+
+
+def faces(values, name):
+    """Triangles as an array of int32 of shape (m, 3)."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "iu" or array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name}: expected faces of whole numbers, (m, 3), got {array.dtype} {array.shape}")
+    _refuse_masked(values, name)
+    if len(array) and not (0 <= int(array.min()) and int(array.max()) < 2**31):
+        raise ValueError(f"{name}: expected faces from 0 to 2^31")
+    return np.ascontiguousarray(array, dtype=np.int32)
+
+
+def words(values, name):
+    """A list of texts; None: an empty one."""
+    array = np.asarray([] if values is None else values)
+    if array.ndim != 1 or (array.size and array.dtype.kind not in "UO"):
+        raise TypeError(f"{name}: expected texts, got {array.dtype.name} of shape {array.shape}")
+    _refuse_masked(values, name)
+    return [str(value) for value in array]
 
 
 def balls(positions, radii):

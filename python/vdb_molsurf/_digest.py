@@ -62,6 +62,9 @@ class _Parts:
             array = np.ascontiguousarray(value)
             self.put("array", f"{array.dtype.str} {array.shape}".encode())
             self.put("bytes", array.tobytes())
+            mask = np.ma.getmaskarray(value).tobytes() if isinstance(value, np.ma.MaskedArray) else b""
+            if b"\1" in mask:
+                self.put("mask", mask)
         elif value is None or isinstance(value, (bool, int, float, complex, str)):
             self.put(type(value).__name__, repr(value).encode(errors="backslashreplace"))
         elif isinstance(value, (bytes, bytearray)):

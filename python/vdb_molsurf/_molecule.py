@@ -171,10 +171,6 @@ def radii(names, residues=None, elements=None, set="bondi"):
     set: bondi, alvarez, gemmi; of heavy atoms with their hydrogens protor or naccess; martini2, martini3; or the path
     of a file. 0 stands for an atom that is to be left out, not a number for one of which nothing is known.
     """
-    lists = []
-    for name, values in (("names", names), ("residues", residues), ("elements", elements)):
-        array = np.asarray([] if values is None else values)
-        if array.ndim != 1 or (array.size and array.dtype.kind not in "UO"):
-            raise TypeError(f"{name}: expected texts, got {array.dtype.name} of shape {array.shape}")
-        lists.append([str(value) for value in array])
+    lists = (_arrays.words(values, name)
+             for name, values in (("names", names), ("residues", residues), ("elements", elements)))
     return _core.radii(*lists, str(set))

@@ -112,21 +112,21 @@ def _made(pairs, extra, areas_of):
     return pairs, [name for name in extra if not (parts and name == "atom_areas")], areas_of
 
 
-def _word(value):
-    """A value of an option as it is typed: a direction with commas, a number with all its digits."""
+def _word(name, value):
+    """The value of an option as it is typed: a direction with commas, a number with all its digits."""
     if isinstance(value, (str, os.PathLike)):
         return os.fspath(value)
     if np.ndim(value) > 0:
-        return ",".join(repr(float(x)) for x in value)
+        return ",".join(repr(float(x)) for x in _arrays.numbers(value, name).ravel())
     return str(value)
 
 
 def _place(keyword, place):
     """A place as it is typed."""
-    numbers = np.asarray(place, dtype=float)
+    numbers = _arrays.numbers(place, keyword)
     if numbers.shape != (3,) or not np.isfinite(numbers).all():
-        raise ValueError(f"{keyword}: expected a place (x, y, z), got {place!r}")
-    return _word(numbers)
+        raise ValueError(f"{keyword}: expected a place (x, y, z), got {numbers.tolist()!r:.40}")
+    return _word(keyword, numbers)
 
 
 def _shown(show):
@@ -359,7 +359,7 @@ class Surface:
 
     def _save(self, path, replace, options, panels=None, show=None, more=()):
         """Writes a file with options of the command line, those that are not None or False; messages name Python's keywords."""
-        settings = [(name, _word(value)) for name, value in options.items() if value is not None and value is not False]
+        settings = [(name, _word(name, value)) for name, value in options.items() if value is not None and value is not False]
         name, others = _named(self, panels)
         try:
             self._core.save(os.fspath(path), bool(replace), [*settings, *more], (name, others, _shown(show or {})))
@@ -504,13 +504,8 @@ def _mesh(of, name):
     pair = (of.vertices, of.faces) if hasattr(of, "vertices") and hasattr(of, "faces") else of
     if not isinstance(pair, (tuple, list)) or len(pair) != 2:
         raise TypeError(f"{name}: expected a surface, a path or (vertices, faces), got {type(of).__name__}")
-    faces = np.asarray(pair[1])
-    if faces.dtype.kind not in "iu" or faces.ndim != 2 or faces.shape[1] != 3:
-        raise ValueError(f"{name}: expected faces of whole numbers, (m, 3), got {faces.dtype} {faces.shape}")
-    if len(faces) and not (0 <= int(faces.min()) and int(faces.max()) < 2**31):
-        raise ValueError(f"{name}: expected faces from 0 to 2^31")
-    return (np.ascontiguousarray(_arrays.points(pair[0], name), dtype=np.float32),
-            np.ascontiguousarray(faces, dtype=np.int32))
+    faces = _arrays.faces(pair[1], name)
+    return np.ascontiguousarray(_arrays.points(pair[0], name), dtype=np.float32), faces
 
 
 def compare(a, b, *, progress=None, threads=0):

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from . import _adapters
+from . import _adapters, _arrays
 from ._surface import surface
 
 LEVELS = ("A", "R", "C", "M", "S")
@@ -33,7 +33,7 @@ def compute(entity, level="A", probe_radius=1.4, radii="bondi"):
     models = {}
     for i, atom in enumerate(atoms):
         models.setdefault(id(_up(atom, "M")), []).append(i)
-    positions = np.array([atom.get_coord() for atom in atoms], dtype=np.float64)
+    positions = _arrays.points([atom.get_coord() for atom in atoms], "coordinates")
     for members in models.values():
         for i, area in zip(members, _adapters.areas(positions[members], known[members], probe_radius)):
             atoms[i].sasa = float(area)
@@ -74,7 +74,7 @@ def residue_depth(entity, probe_radius=1.4, radii="bondi", voxel=0.5):
     kept = np.flatnonzero(known > 0)
     if not len(kept):
         raise ValueError("entity: expected at least one atom with a radius, got none")
-    positions = np.array([atoms[i].get_coord() for i in kept], dtype=np.float64)
+    positions = _arrays.points([atoms[i].get_coord() for i in kept], "coordinates")
     made = surface(positions, known[kept], kind="ses", probe=probe_radius, voxel=voxel, fill_cavities=True)
     depths = {}
     for i, depth in zip(kept, -made.distance(positions).distance):

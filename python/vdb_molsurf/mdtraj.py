@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from . import _adapters
+from . import _adapters, _arrays
 
 
 def shrake_rupley(traj, probe_radius=0.14, mode="atom", radii="bondi"):
@@ -26,7 +26,7 @@ def shrake_rupley(traj, probe_radius=0.14, mode="atom", radii="bondi"):
         known = 10.0 * _adapters.radii_of(radii, atoms, None, None)
     areas = np.zeros((traj.n_frames, len(atoms)))
     for k, frame in enumerate(traj.xyz):
-        areas[k] = _adapters.areas(10.0 * np.float64(frame), known, 10.0 * probe_radius)
+        areas[k] = _adapters.areas(10.0 * _arrays.points(frame, "traj.xyz"), known, 10.0 * probe_radius)
     if mode == "residue":
         index = np.array([atom.residue.index for atom in atoms], dtype=np.intp)
         areas = (_adapters.sums(areas, index, traj.topology.n_residues) if len(areas)
