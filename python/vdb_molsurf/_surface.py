@@ -319,10 +319,11 @@ class Surface:
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 0:
             raise ValueError("n: expected a whole number from 0 up")
         random = np.random.default_rng(seed)
+        self._core.check_mesh()
         corners = np.float64(self.vertices)[self.faces]
         areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         if n > 0 and not areas.sum() > 0:
-            raise ValueError("sample: the surface has no mesh")
+            raise ValueError("sample: expected triangles with an area, got none")
         ends = np.cumsum(areas)
         faces = np.searchsorted(ends, random.random(n) * (ends[-1] if len(ends) else 0), side="right")
         faces = np.minimum(faces, max(len(areas) - 1, 0)).astype(np.int32)
