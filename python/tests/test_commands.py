@@ -159,6 +159,11 @@ def test_wrong_panels_and_notes(tmp_path):
                                (TypeError, "panels: expected the name of this surface", {"panels": {"": made}}),
                                (ms.OptionError, "`ruler`: expected two places", {"ruler": [((1, 2, 3), (1, 2, 3))]}),
                                (ms.OptionError, "`label`: expected X,Y,Z=TEXT within 1e6", {"label": [((1e7, 2, 3), "far")]}),
+                               (TypeError, "panels: expected a list or a dict of surfaces, got Surface", {"panels": made}),
+                               (TypeError, "label: expected a list of pairs of place and text, got str", {"label": "here"}),
+                               (TypeError, "ruler: expected a list of pairs of places, got tuple", {"ruler": ((1, 2, 3), (3, 2, 1))}),
+                               (TypeError, "show: expected molecules by words of styles, a dict, got str", {"show": "sticks"}),
+                               (TypeError, "show: expected molecules by words of styles, a dict, got list", {"show": ["sticks"]}),
                                (TypeError, "show: expected molecules, got Surface", {"show": {"sticks": made}}),
                                (ms.OptionError, "`show`: expected sticks", {"show": {"stick": ms.read(DATA / "1crn.pdb")}}),
                                (ms.OptionError, "`label`: expected SELECTION", {"label": [((1, 2, 3), "")]})):

@@ -129,8 +129,20 @@ def _place(keyword, place):
     return _word(keyword, numbers)
 
 
+def _pairs(keyword, what, pairs):
+    """Notes of two parts each."""
+    try:
+        return [(first, second) for first, second in pairs]
+    except (TypeError, ValueError):
+        raise TypeError(f"{keyword}: expected a list of pairs of {what}, got {type(pairs).__name__}") from None
+
+
 def _shown(show):
     """Words of styles, and the cores of molecules."""
+    if show is None:
+        return []
+    if not isinstance(show, Mapping):
+        raise TypeError(f"show: expected molecules by words of styles, a dict, got {type(show).__name__}")
     for one in show.values():
         if not isinstance(getattr(one, "_core", None), _core.Molecule):
             raise TypeError(f"show: expected molecules, got {type(one).__name__}")
@@ -141,6 +153,8 @@ def _named(surface, panels):
     """The name of a surface, and the names and cores of its panels."""
     if panels is None:
         return "", []
+    if not hasattr(panels, "__iter__"):
+        raise TypeError(f"panels: expected a list or a dict of surfaces, got {type(panels).__name__}")
     names = dict(panels) if isinstance(panels, Mapping) else None
     others = list(panels) if names is None else [one for name, one in names.items() if name != ""]
     for one in others:
@@ -363,7 +377,7 @@ class Surface:
         settings = [(name, _word(name, value)) for name, value in options.items() if value is not None and value is not False]
         name, others = _named(self, panels)
         try:
-            self._core.save(os.fspath(path), bool(replace), [*settings, *more], (name, others, _shown(show or {})))
+            self._core.save(os.fspath(path), bool(replace), [*settings, *more], (name, others, _shown(show)))
         except _core.OptionError as error:
             words = str(error)
             for ours, theirs in (("`size`", "width"), ("`for`", "scene")):
@@ -431,8 +445,9 @@ class Surface:
         given = {"size": int(width), "view": view, "up": up, "turn": turn, "background": background, "plain-color": plain_color, "style": style,
                  "opacity": opacity, "all-walls": all_walls, "clip": clip, "depth-cue": depth_cue, "legend": legend,
                  "scale-bar": scale_bar, "dpi": dpi, "walls": walls}
-        notes = [("label", f"{_place('label', place)}={text}") for place, text in label]
-        notes += [("ruler", f"{_place('ruler', start)}..{_place('ruler', end)}") for start, end in ruler]
+        notes = [("label", f"{_place('label', place)}={text}") for place, text in _pairs("label", "place and text", label)]
+        notes += [("ruler", f"{_place('ruler', start)}..{_place('ruler', end)}")
+                  for start, end in _pairs("ruler", "places", ruler)]
         self._save(path, replace, given, panels, show, notes)
 
 
