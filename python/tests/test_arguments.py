@@ -27,6 +27,7 @@ WRONG = [
     (X, changed(R, 0, 0), ValueError, "radii: expected finite numbers above 0, got 0.0 at index 0"),
     (X, -R, ValueError, "radii: expected finite numbers above 0, got -1.7 at index 0"),
     (X, 0, ValueError, "radii: expected finite numbers above 0, got 0.0 at index 0"),
+    (X, changed(R, 2, 1e7), ValueError, "ball 2: expected a radius above 0 and up to 1e6 Å, got 1e+07"),
     (X[:, :2], R, ValueError, "positions: expected shape (n, 3), got (3, 2)"),
     (X.ravel(), R, ValueError, "positions: expected shape (n, 3), got (9,)"),
     (X[None], R, ValueError, "positions: expected shape (n, 3), got (1, 3, 3)"),

@@ -31,12 +31,12 @@ void checkFinite(const std::vector<Ball>& balls)
         const bool placed = std::abs(b.center.x()) <= farthest &&
                             std::abs(b.center.y()) <= farthest &&
                             std::abs(b.center.z()) <= farthest;
-        if (placed && b.radius > 0.0 && std::isfinite(b.radius)) continue;
-        throw Error(ErrorKind::Input,
-                    "ball " + std::to_string(i) +
-                        (placed
-                             ? ": expected a radius above 0 Å, got " + std::to_string(b.radius)
-                             : ": expected coordinates within 1e6 Å, got " + placeText(b.center)));
+        if (placed && b.radius > 0.0 && b.radius <= farthest) continue;
+        throw Error(
+            ErrorKind::Input,
+            "ball " + std::to_string(i) +
+                (placed ? formatted(": expected a radius above 0 and up to 1e6 Å, got %g", b.radius)
+                        : ": expected coordinates within 1e6 Å, got " + placeText(b.center)));
     }
 }
 

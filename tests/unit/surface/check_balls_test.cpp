@@ -51,6 +51,12 @@ TEST(CheckBalls, NamesTheBallAtFault)
         EXPECT_EQ(line.substr(0, 6), "ball 3") << line;
     }
     EXPECT_EQ(refusal({}), "no atoms");
+    const double large[] = {1.1e6, 1e30, 1e200}; // whose squares are no numbers, or too rough
+    for (const double radius : large) {
+        balls[3].radius = radius;
+        EXPECT_THROW(exposedAreas(balls, 1.4, Progress()), Error) << radius;
+        EXPECT_THROW(contactAreas(balls, 1.4, Progress()), Error) << radius;
+    }
 }
 
 TEST(CheckBalls, RefusesWhatDoesNotFitTheMemory)
