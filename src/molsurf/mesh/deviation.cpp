@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/mesh/deviation.h"
 
+#include "molsurf/core/cancel.h"
 #include "molsurf/core/parallel.h"
 
 #include <openvdb/tree/LeafManager.h>
@@ -105,13 +106,15 @@ struct Sums {
 };
 
 /// The parts of a large triangle: their centroids count, their corners are looked at.
-void addParts(const Corners& t, int n, DistanceTo::Query& query, Sums& sums)
+void addParts(const Corners& t, int n, const Progress& progress, DistanceTo::Query& query,
+              Sums& sums)
 {
     const double weight = t.area() / (double(n) * n);
     const auto point = [&](double i, double j) {
         return t.a + (i / n) * (t.b - t.a) + (j / n) * (t.c - t.a);
     };
     for (int i = 0; i <= n; ++i) {
+        stopIfCancelled(progress); // a distance from triangles in a tangle takes long
         for (int j = 0; i + j <= n; ++j) {
             const Vec3d x = point(i, j);
             sums.look(x, query.at(x));
@@ -135,7 +138,10 @@ Comparison::OneWay distancesFrom(const Surface& from, const DistanceTo& to,
     std::vector<Distance> distances(vertices);
     inChunks(vertices, progress, [&](std::size_t begin, std::size_t end) {
         DistanceTo::Query query(to);
-        for (std::size_t v = begin; v < end; ++v) distances[v] = query.at(Vec3d(mesh.positions[v]));
+        for (std::size_t v = begin; v < end; ++v) {
+            if (v % 64 == 0) stopIfCancelled(progress);
+            distances[v] = query.at(Vec3d(mesh.positions[v]));
+        }
     });
 
     // Large triangles by their parts, the others by their corners.
@@ -148,7 +154,7 @@ Comparison::OneWay distancesFrom(const Surface& from, const DistanceTo& to,
             const Corners t(mesh, i);
             const int n = t.parts(spacing);
             if (n > 1) {
-                addParts(t, n, query, part);
+                addParts(t, n, progress, query, part);
             } else {
                 for (const std::uint32_t v : mesh.triangles[i])
                     part.add(t.area() / 3.0, distances[v]);
