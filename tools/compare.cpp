@@ -21,6 +21,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <limits>
 
 namespace molsurf::tool
 {
@@ -210,12 +211,10 @@ void sayResult(const Call& call, const ComparisonReport& report)
                   both.aToB.mean, both.bToA.mean, both.hausdorff, report.seconds.back().second));
 }
 
-} // namespace
-
-int compare(const Call& call, Clock::time_point start)
+/// Compares two files and writes what was asked for.
+/// @return the exit status
+int compareFiles(const Call& call, Clock::time_point start, Terminal& terminal)
 {
-    prepareOutputs(call);
-    Terminal terminal(call.progress);
     ComparisonReport report;
     Clock::time_point lapStart = Clock::now();
     const auto lap = [&](const char* stage) {
@@ -277,6 +276,25 @@ int compare(const Call& call, Clock::time_point start)
             say(read->path + ": not converged; the files are written [hint: a larger "
                              "--tolerance or a smaller --voxel]");
     return a.converged && b.converged ? 0 : notConvergedStatus;
+}
+
+} // namespace
+
+int compare(const Call& call, Clock::time_point start)
+{
+    prepareOutputs(call);
+    Terminal terminal(call.progress);
+    // Where the triangles of a mesh lie in a tangle, each distance takes many of them: no estimate
+    // tells that before, so the clock does.
+    terminal.limit(std::numeric_limits<double>::infinity(), call.hours);
+    try {
+        return compareFiles(call, start, terminal);
+    } catch (const Cancelled&) {
+        if (!terminal.overdue()) throw;
+        throw Error(ErrorKind::Numeric, formatted("the comparison takes more than %g hours [hint: "
+                                                  "a larger --max-hours]",
+                                                  call.hours));
+    }
 }
 
 } // namespace molsurf::tool

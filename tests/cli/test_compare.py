@@ -3,6 +3,7 @@
 
 import json
 import math
+import random
 import struct
 import subprocess
 import sys
@@ -189,6 +190,15 @@ class Output(CompareTest):
         self.assertAlmostEqual(color["high"], 0.25)
         self.assertEqual(color["low"], -color["high"])
         self.assertEqual(len(color["bar"]), 9)
+
+    def test_a_tangle_is_given_up(self):
+        """Each distance takes many triangles there. The estimate is of one core, and there are said to be many."""
+        number = random.Random(1)
+        points = [[round(number.uniform(-99, 99), 3) for _ in range(3)] for _ in range(3000)]
+        (self.folder / "tangle.obj").write_text(obj(points, [number.sample(range(3000), 3) for _ in points]))
+        self.check(1, "compare", "tangle.obj", "tangle.obj", "-j", "64", "--max-hours", "1e-5", "-o", "a.json",
+                   says="the comparison takes more than 1e-05 hours [hint: a larger --max-hours]")
+        self.assertNotIn("a.json", self.names())
 
     def test_open_meshes_have_no_volume(self):
         self.cube("open.obj", faces=QUADS[:5])

@@ -514,6 +514,9 @@ CASES = {
     "tools/compare.cpp": [
         ("write a plain .vdb", f"vdb_molsurf two.xyzr {FAST} --for blender4 -o a.vdb; vdb_molsurf compare a.vdb two.xyzr",
          f"vdb_molsurf two.xyzr {FAST} -o b.vdb && vdb_molsurf compare b.vdb two.xyzr {FAST}"),
+        ("a larger --max-hours", "vdb_molsurf 1crn.pdb --voxel 0.25 --surface sas -o a.ply; "
+         "vdb_molsurf compare a.ply a.ply -j 64 --max-hours 1e-5",
+         "vdb_molsurf compare a.ply a.ply -j 64 --max-hours 1"),
         ("-o .ply", "vdb_molsurf compare open.ply solid.ply -o a.vdb",
          "vdb_molsurf compare open.ply solid.ply -o a.ply"),
         ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.8",
