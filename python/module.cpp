@@ -599,7 +599,6 @@ void addSurface(nb::module_& m)
                                        nb::make_tuple(all.origin[0], all.origin[1], all.origin[2]));
              })
         .def("table", tableOf)
-        .def("check_mesh", [](const MadeSurface& s) { checkArrays(s.result.mesh); })
         .def("gradients",
              [](MadeSurface& s, Listener progress, int threads) {
                  return gradientsOf(s, {progress, threads});

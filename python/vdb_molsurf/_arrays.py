@@ -57,6 +57,18 @@ def faces(values, name):
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
+def mesh(vertices, normals, triangles):
+    """The arrays of a mesh that anybody may have written to, as float64, float64 and int32."""
+    x, directions, corners = points(vertices, "vertices"), points(normals, "normals"), faces(triangles, "faces")
+    if len(x) and not np.abs(x).max() < 1e6:
+        raise ValueError("vertices: expected coordinates below 1e6 Å")
+    if not np.isfinite(directions).all():
+        raise ValueError("normals: expected finite vectors")
+    if len(corners) and corners.max() >= min(len(x), len(directions)):
+        raise ValueError(f"faces: expected vertices below {len(x)}, got {corners.max()}")
+    return x, directions, corners
+
+
 def words(values, name):
     """A list of texts; None: an empty one."""
     array = np.asarray([] if values is None else values)

@@ -333,8 +333,8 @@ class Surface:
         if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 0:
             raise ValueError("n: expected a whole number from 0 up")
         random = np.random.default_rng(seed)
-        self._core.check_mesh()
-        corners = np.float64(self.vertices)[self.faces]
+        vertices, directions, triangles = _arrays.mesh(self.vertices, self.normals, self.faces)
+        corners = vertices[triangles]
         areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         if n > 0 and not areas.sum() > 0:
             raise ValueError("sample: expected triangles with an area, got none")
@@ -343,7 +343,7 @@ class Surface:
         faces = np.minimum(faces, max(len(areas) - 1, 0)).astype(np.int32)
         u, v = np.sqrt(random.random(n)), random.random(n)
         weights = np.stack([1 - u, u * (1 - v), u * v], axis=1)[:, :, None]
-        normals = (np.float64(self.normals)[self.faces[faces]] * weights).sum(axis=1)
+        normals = (directions[triangles[faces]] * weights).sum(axis=1)
         normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
         return Samples((corners[faces] * weights).sum(axis=1), normals, faces)
 

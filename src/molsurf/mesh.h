@@ -45,12 +45,6 @@ struct Mesh {
     std::vector<MeshPart> parts; ///< surfaces of their own; empty if there is only one
 };
 
-/// Refuses a mesh with a position that is not finite or not below 1e6 Å, a normal that is not
-/// finite, a corner that is no vertex, an attribute without one value a vertex, or a part that
-/// begins outside of it.
-/// @throws Error(ErrorKind::Input) that names the first fault
-void checkArrays(const Mesh& mesh);
-
 /// The distances between two surfaces a and b, both ways. docs/math.md, section 11.
 struct Comparison {
     /// The distances of the points of one surface from another surface. Means are weighted by area.
