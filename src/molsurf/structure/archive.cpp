@@ -153,7 +153,9 @@ private:
         if (got == 0) {
             int problem = Z_OK;
             gzerror(file_.get(), &problem);
-            if (problem == Z_OK) return false; // without its blocks of zeros
+            // Some archives are without their blocks of zeros. Of one that is packed that may be a
+            // damaged member of gzip, with all that is behind it.
+            if (problem == Z_OK && gzdirect(file_.get())) return false;
         }
         if (got != 1) failToRead();
         read(header.data() + 1, block - 1);

@@ -177,6 +177,9 @@ std::string unpack(std::string bytes, const std::string& path, const Limit& limi
     Growing text;
     std::size_t next = 0;
     while (isGzip(bytes, next)) next = unpackMember(bytes, next, path, limit, text);
+    if (bytes.find_first_not_of('\0', next) != std::string::npos) // tapes end with zeros
+        failAt(path, "has damaged gzip data: expected another member behind byte " +
+                         std::to_string(next) + ", or the end [copy or download it again]");
     std::string().swap(bytes);
     return text.take();
 }

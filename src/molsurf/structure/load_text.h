@@ -10,9 +10,14 @@
 namespace molsurf
 {
 
+/// Whether a path names standard input, "-", a pipe or a device: these have no size, and what is
+/// read of them is gone.
+bool readsOnce(const std::string& path);
+
 /// Reads a file, or standard input for "-", and unpacks it if it starts as those of gzip, bzip2 or
-/// xz do. Members of a concatenated gzip file are joined. A leading byte order mark is removed, and
-/// the UTF-16 behind it becomes UTF-8. Lines that end with CR alone end with LF.
+/// xz do. Members of a concatenated gzip file are joined; behind them there may be zeros. A leading
+/// byte order mark is removed, and the UTF-16 behind it becomes UTF-8. Lines that end with CR alone
+/// end with LF.
 ///
 /// @param[in] maxBytes  that the text may have, unpacked [byte]; 0: 4 GiB, and where it is above
 ///                      16 MiB no more than 200 times what it was packed

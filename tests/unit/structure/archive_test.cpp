@@ -3,6 +3,8 @@
 
 #include "unit/structure/temp_file.h"
 
+#include <zlib.h>
+
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -59,6 +61,33 @@ TEST(Archive, AMemberThatIsCutShortSpoilsNoOther)
                        }),
                "is cut short");
     EXPECT_EQ(readMember({tar.path(), "a.pdb"}, 0), "aa");
+}
+
+/// Bytes as a member of gzip.
+std::string packed(std::string bytes)
+{
+    z_stream stream{};
+    EXPECT_EQ(deflateInit2(&stream, 1, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    std::string out(deflateBound(&stream, uLong(bytes.size())), '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
+    stream.avail_in = uInt(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = uInt(out.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    out.resize(stream.total_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+TEST(Archive, ADamagedMemberOfGzipLosesNoFiles)
+{
+    const std::string first = packed(entry("a.pdb", "aa"));
+    std::string second = packed(entry("b.pdb", "bb") + std::string(1024, '\0'));
+    const TempFile whole("whole.tar.gz", first + second);
+    EXPECT_EQ(membersIn(whole.path()).size(), 2u);
+    second[0] = 'x';
+    const TempFile damaged("damaged.tar.gz", first + second);
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { membersIn(damaged.path()); }), "is cut short");
 }
 
 TEST(Archive, MembersAreHeldToALimit)

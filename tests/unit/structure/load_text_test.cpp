@@ -54,6 +54,19 @@ TEST(LoadText, RefusesDamagedGzip)
     EXPECT_HAS(loadError(damaged.path()), "damaged gzip data");
 }
 
+TEST(LoadText, TakesNothingButMembersAndZerosBehindAGzip)
+{
+    const std::string packed = contentOf(dataFile("1a8o.pdb.gz"));
+    const std::string once = loadText(dataFile("1a8o.pdb.gz"));
+    EXPECT_EQ(unpackedText(packed + std::string(1000, '\0'), "a"), once);
+    std::string damaged = packed + packed;
+    damaged[packed.size()] = static_cast<char>(damaged[packed.size()] ^ 1); // of the magic
+    for (const std::string& bytes :
+         {damaged, packed + "\x1f", packed + std::string(1, '\0') + packed})
+        EXPECT_HAS(errorOf(ErrorKind::Input, [&] { unpackedText(bytes, "a"); }),
+                   "another member behind byte " + std::to_string(packed.size()));
+}
+
 TEST(LoadText, ReadsStandardInput)
 {
     ASSERT_NE(std::freopen(dataFile("1a8o.pdb.gz").c_str(), "rb", stdin), nullptr);
