@@ -2,6 +2,7 @@
 #include "verbs.h"
 
 #include "batch_journal.h"
+#include "cli/option_table.h"
 #include "identity.h"
 #include "input_files.h"
 #include "outputs.h"
@@ -87,13 +88,13 @@ std::size_t existing(const std::vector<Output>& outputs)
     }));
 }
 
-BatchEntry beginEntry(const Task& task)
+BatchEntry beginEntry(const Call& call, const Task& task)
 {
     BatchEntry entry;
     entry.name = task.name;
     entry.input = task.input;
     entry.status = "begun";
-    entry.sha256 = sha256OfInput(task.input);
+    entry.sha256 = sha256OfInput(task.input, call.atoms.maxInput);
     return entry;
 }
 
@@ -117,7 +118,7 @@ BatchEntry doneEntry(BatchEntry entry, const Report& report)
 // @param[out] kept  done before
 BatchEntry perform(const Call& call, const Task& task, BatchJournal& journal, bool& kept)
 {
-    BatchEntry entry = beginEntry(task);
+    BatchEntry entry = beginEntry(call, task);
     const BatchEntry* before = journal.find(task.name);
     const bool same = before && before->sha256 == entry.sha256 && !entry.sha256.empty();
     kept = !call.force && same && before->status != "failed" && before->status != "begun" &&
@@ -167,6 +168,9 @@ std::string describe(const BatchEntry& entry)
 
 int batch(Call call)
 {
+    for (const OptionFile& file : filesOf(call.verb, call.given))
+        if (file.option->stored)
+            failIfStream(file.path, "a file, which each structure needs again");
     call.identity = identityOf(call); // of all
     const std::vector<Task> tasks = tasksOf(call);
     std::error_code problem;

@@ -107,7 +107,7 @@ bool isDone(const std::string& path, const std::string& id, std::size_t number)
 
 int brick(const Call& call)
 {
-    failIfNoPlan(call.input);
+    failIfStream(call.input, "the file of a plan");
     const PlanManifest manifest = readManifest(call.input);
     const std::size_t count = manifest.plan.bricks.size();
     if (call.brick > count)

@@ -148,7 +148,7 @@ openvdb::MetaMap metadata(const Call& call, const ComparisonReport& report)
 {
     openvdb::MetaMap map;
     const auto text = [&](const char* name, const std::string& value) {
-        map.insertMeta(name, openvdb::StringMetadata(value));
+        if (!value.empty()) map.insertMeta(name, openvdb::StringMetadata(value));
     };
     const auto number = [&](const std::string& name, double value) {
         map.insertMeta(name, openvdb::DoubleMetadata(value));
@@ -158,8 +158,8 @@ openvdb::MetaMap metadata(const Call& call, const ComparisonReport& report)
     text("command", report.command);
     text("a", report.a.input);
     text("b", report.b.input);
-    if (call.inputs[0] != "-") text("a_sha256", sha256OfFile(call.inputs[0]));
-    if (call.inputs[1] != "-") text("b_sha256", sha256OfFile(call.inputs[1]));
+    text("a_sha256", sha256OfFile(call.inputs[0])); // of streams empty
+    text("b_sha256", sha256OfFile(call.inputs[1]));
     for (const bool there : {true, false}) {
         const Comparison::OneWay& way = there ? report.distances.aToB : report.distances.bToA;
         const std::string name = there ? "a_to_b." : "b_to_a.";

@@ -62,7 +62,8 @@ int convert(const Call& asked, Clock::time_point start)
     Clock::time_point lapStart = Clock::now();
     terminal.update("read", 0.0);
     failIfNoFile(asked.input);
-    if (asked.input != "-" && !isVdbFile(asked.input))
+    failIfStream(asked.input, "a .vdb file");
+    if (!isVdbFile(asked.input))
         throw Error(ErrorKind::Input, asked.input + ": is no .vdb file [hint: vdb_molsurf " +
                                           asked.input + " -o FILE makes a surface of a structure]");
     PlannedBrick cost;

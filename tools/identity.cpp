@@ -9,6 +9,7 @@
 #include "molsurf/io/output_file.h"
 #include "molsurf/io/read_report.h"
 #include "molsurf/structure/archive.h"
+#include "molsurf/structure/load_text.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -47,7 +48,7 @@ std::string optionsLine(const Call& call)
         }
     }
     for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->stored)
+        if (file.option->stored && !readsOnce(file.path))
             line += " (" + file.path + ": " + sha256OfFile(file.path).substr(0, 16) + ")";
     return line;
 }
@@ -57,11 +58,11 @@ std::string identityOf(const Call& call)
     return sha256OfText(MOLSURF_VERSION "\n" + optionsLine(call));
 }
 
-std::string sha256OfInput(const std::string& path)
+std::string sha256OfInput(const std::string& path, std::size_t maxBytes)
 {
     std::error_code ignored;
     try {
-        if (const auto member = memberOf(path)) return sha256OfText(readMember(*member, 0));
+        if (memberOf(path)) return sha256OfText(loadBytes(path, maxBytes));
         return fs::is_regular_file(path, ignored) ? sha256OfFile(path) : "";
     } catch (const Error&) {
         return "";
@@ -81,7 +82,11 @@ std::optional<int> statusOfExisting(Call& call)
         const fs::file_time_type time = fs::last_write_time(o.path, missing);
         return !missing && time <= made && !isStream(o.path);
     });
-    const std::string input = sha256OfInput(call.input);
+    const std::vector<OptionFile> read = filesOf(call.verb, call.given);
+    const bool hashed = std::none_of(read.begin(), read.end(), [](const OptionFile& file) {
+        return file.option->stored && readsOnce(file.path);
+    });
+    const std::string input = hashed ? sha256OfInput(call.input, call.atoms.maxInput) : "";
     if (whole && !input.empty() && known->input == input && known->options == identityOf(call))
         return known->converged ? doneStatus : notConvergedStatus;
     call.force = true;

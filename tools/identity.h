@@ -7,6 +7,7 @@
 
 #include "cli/call.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -21,7 +22,8 @@ std::string identityOf(const Call& call);
 
 /// The SHA-256 of the content of an input; empty for standard input, pipes, and what cannot be
 /// read, as its reader will say.
-std::string sha256OfInput(const std::string& path);
+/// @param[in] maxBytes  that a member of an archive may have; see loadText()
+std::string sha256OfInput(const std::string& path, std::size_t maxBytes);
 
 /// The exit status of a run that has made all outputs of a call of the same input, if there was
 /// one: its report has the same identity, and no output is newer. Otherwise outputs beside a

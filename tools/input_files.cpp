@@ -6,6 +6,8 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/archive.h"
+#include "molsurf/structure/load_text.h"
+#include "molsurf/structure/text_fields.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -53,13 +55,11 @@ void failIfNoFile(const std::string& path)
     throw Error(ErrorKind::Input, path + ": cannot be opened: No such file or directory" + hint);
 }
 
-void failIfNoPlan(const std::string& path)
+void failIfStream(const std::string& path, const std::string& expected)
 {
-    std::error_code problem;
-    const auto status = std::filesystem::status(path, problem);
-    if (std::filesystem::is_other(status))
+    if (readsOnce(path))
         throw Error(ErrorKind::Input,
-                    path + ": is a pipe or a device, expected the file of a plan");
+                    displayName(path) + ": is a pipe or a device, expected " + expected);
 }
 
 InputFiles::InputFiles(const Call& call)

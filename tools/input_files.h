@@ -21,9 +21,10 @@ namespace molsurf::tool
 /// @throws Error(ErrorKind::Input)
 void failIfNoFile(const std::string& path);
 
-/// Refuses a plan that is no regular file: it is read twice, and a device has no end.
+/// Refuses standard input, a pipe or a device where a file is read twice.
+/// @param[in] expected  what it has to be, as "the file of a plan"
 /// @throws Error(ErrorKind::Input)
-void failIfNoPlan(const std::string& path);
+void failIfStream(const std::string& path, const std::string& expected);
 
 /// The files that a call reads, none of which it may replace.
 class InputFiles

@@ -43,7 +43,7 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
 
 int merge(const Call& call, Clock::time_point start)
 {
-    failIfNoPlan(call.input);
+    failIfStream(call.input, "the file of a plan");
     const PlanManifest manifest = readManifest(call.input);
     Call build = callOf(manifest, call.input, PlanFiles::Hashes);
     build.outputs = call.outputs;

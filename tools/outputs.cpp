@@ -64,8 +64,9 @@ void beginReport(const Call& call, Report& report)
     if (call.writes(Numbers | Grids)) {
         if (call.verb & (Build | Batch))
             report.options = call.identity.empty() ? identityOf(call) : call.identity;
-        report.inputSha256 =
-            call.inputSha256.empty() ? sha256OfInput(call.input) : call.inputSha256;
+        report.inputSha256 = call.inputSha256.empty()
+                                 ? sha256OfInput(call.input, call.atoms.maxInput)
+                                 : call.inputSha256;
     }
     report.threads =
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));

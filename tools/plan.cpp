@@ -73,6 +73,10 @@ GivenOptions planned(const Call& call)
 
 int plan(Call call)
 {
+    std::vector<std::string> planFiles = {call.input};
+    for (const OptionFile& file : filesOf(call.verb, call.given))
+        if (file.option->stored) planFiles.push_back(file.path);
+    for (const std::string& path : planFiles) failIfStream(path, "a file, which bricks read again");
     const std::string atomsFile = atomsPath(call.outputs[0].path);
     InputFiles(call).refuse(atomsFile);
     checkWritable(atomsFile, call.force);
@@ -86,13 +90,9 @@ int plan(Call call)
     manifest.input = fromPlan(call, call.input);
     manifest.options = planned(call);
     manifest.voxel = call.options.voxel;
-    const auto add = [&](const std::string& path) {
+    for (const std::string& path : planFiles)
         manifest.files.push_back(
             {fromPlan(call, path), sha256OfFile(path), std::filesystem::file_size(path)});
-    };
-    add(call.input);
-    for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->stored) add(file.path);
     // Bricks run in processes of their own, and read their atoms from disk.
     manifest.plan = planBricks(atoms, call.options,
                                {std::size_t(call.bricks), call.memory, false, true}, terminal);

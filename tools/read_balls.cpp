@@ -41,7 +41,7 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
 {
     terminal.update("read", 0.0);
     failIfNoFile(path);
-    if (path != "-" && isVdbFile(path))
+    if (isVdbFile(path))
         throw Error(ErrorKind::Input,
                     path + ": it is an OpenVDB file, expected atoms [hint: vdb_molsurf convert " +
                         path + " -o FILE]");

@@ -3,6 +3,7 @@
 
 #include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
+#include "molsurf/structure/load_text.h"
 
 #include <openssl/evp.h>
 
@@ -45,6 +46,7 @@ std::string sha256(std::istream& in, const std::string& name)
 
 std::string sha256OfFile(const std::string& path)
 {
+    if (readsOnce(path)) return "";
     std::ifstream file(path, std::ios_base::binary);
     return sha256(file, path);
 }

@@ -7,7 +7,7 @@ namespace molsurf::tool
 {
 
 /// The SHA-256 of a file as it lies on the disk, in 64 lower-case hexadecimal digits, as sha256sum
-/// prints it.
+/// prints it; empty for standard input, pipes and devices, which can be read but once.
 /// @throws Error(ErrorKind::Input) if the file cannot be read
 std::string sha256OfFile(const std::string& path);
 

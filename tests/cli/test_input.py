@@ -2,6 +2,8 @@
 """Inputs that cannot be used have status 1, say why in one line, and leave nothing behind."""
 
 import gzip
+import json
+import os
 import unittest
 
 from tool import CRAMBIN, FAST, ToolTest
@@ -95,6 +97,61 @@ class GoodInput(ToolTest):
         self.check(0, CRAMBIN, "-o", "plain.ply", *FAST)
         self.assertEqual((self.folder / "packed.ply").read_bytes(),
                          (self.folder / "plain.ply").read_bytes())
+
+
+class Pipes(ToolTest):
+    """What is read of a pipe is gone, so each is read once, and whole."""
+
+    STDIN = "/dev/stdin"
+
+    def setUp(self):
+        super().setUp()
+        self.balls = "".join(f"{4 * (n % 10)} {4 * (n // 10 % 10)} {4 * (n // 100)} 1.5000\n"
+                             for n in range(800)).encode()  # more than a buffer of the system
+        (self.folder / "a.xyzr").write_bytes(self.balls)
+
+    def test_structures_are_whole(self):
+        self.assertGreater(len(self.balls), 8192)
+        for name in (self.STDIN, "-"):
+            self.check(0, name, "--surface", "sas", *FAST, "-o", "a.json", "--force", input=self.balls, says="800 atoms")
+            said = self.check(0, "info", name, input=self.balls).stdout.decode()
+            self.assertIn("800", said)
+
+    def test_compare(self):
+        self.check(0, "compare", "a.xyzr", self.STDIN, "--surface", "sas", *FAST, "-o", "a.json", "-o", "a.vdb",
+                   input=self.balls)
+        report = json.loads((self.folder / "a.json").read_text())
+        self.assertEqual([report[side]["atoms"] for side in "ab"], [800, 800])
+        said = self.check(0, "info", "a.vdb").stdout
+        self.assertIn(b"a_sha256", said)
+        self.assertNotIn(b"b_sha256", said)
+
+    def test_panels_and_lists(self):
+        self.check(0, "a.xyzr", "--surface", "sas", *FAST, "-o", "a.png", "--size", "200", "--panel", self.STDIN,
+                   input=self.balls)
+        (self.folder / "a.list").write_text(self.STDIN + "\n")
+        self.check(0, "batch", "a.list", "-O", "out", "--formats", "json", "--surface", "sas", *FAST, input=self.balls)
+        self.assertEqual(json.loads((self.folder / "out" / "stdin.json").read_text())["atoms"], 800)
+
+    def test_files_of_options(self):
+        radii = b"* 1.5\n"
+        self.check(0, CRAMBIN, "--radii", self.STDIN, "--surface", "sas", *FAST, "-o", "a.json", "-o", "a.vdb", input=radii)
+        self.assertNotIn(b"radii.sha256", self.check(0, "info", "a.vdb").stdout)
+        self.check(1, "batch", ".", "-O", "out", "--radii", self.STDIN, input=radii,
+                   says=f"{self.STDIN}: is a pipe or a device, expected a file")
+
+    def test_where_files_are_needed(self):
+        """Those that are read again, and those that are read in any order."""
+        os.mkfifo(self.folder / "a.pdb")
+        for name in (self.STDIN, "a.pdb"):
+            self.check(1, "bricks", "plan", name, "-o", "plan.json", "--bricks", "2", input=self.balls, timeout=20,
+                       says=f"{name}: is a pipe or a device, expected a file")
+            self.check(1, "convert", name, "-o", "a.ply", input=self.balls, timeout=20,
+                       says=f"{name}: is a pipe or a device, expected a .vdb file")
+            self.check(1, CRAMBIN, "--trajectory", name, "--frames", "1", "-o", "a.ply", input=self.balls, timeout=20, says=name)
+        self.check(1, "info", self.STDIN, input=b" BDV" + bytes(100), says="OpenVDB file, which is not read from pipes")
+        self.check(1, "compare", "a.xyzr", self.STDIN, "--surface", "sas", *FAST,
+                   input=b"ply\nformat ascii 1.0\n", says="a mesh, which compare reads where its name ends in .ply")
 
 
 if __name__ == "__main__":

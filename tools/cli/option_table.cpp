@@ -9,6 +9,7 @@
 #include "molsurf/picture/view_file.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
+#include "molsurf/structure/load_text.h"
 #include "molsurf/surface/set_value.h"
 #include "molsurf/surface/surface_kind.h"
 
@@ -749,7 +750,7 @@ void addOptions(const Call& call, openvdb::MetaMap& map)
         for (const Option& option : group.options)
             if (option.stored && (option.verbs & Build)) add(option.name, *option.stored(call));
     for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->stored && file.path != "-")
+        if (file.option->stored && !readsOnce(file.path))
             add(file.option->name + ".sha256"s, openvdb::StringMetadata(sha256OfFile(file.path)));
 }
 

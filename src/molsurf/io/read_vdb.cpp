@@ -3,6 +3,7 @@
 
 #include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
+#include "molsurf/structure/load_text.h"
 
 #include <openvdb/io/DelayedLoadMetadata.h>
 #include <openvdb/io/Stream.h>
@@ -41,6 +42,7 @@ public:
 
 bool isVdbFile(const std::string& path)
 {
+    if (readsOnce(path)) return false;
     std::ifstream stream(path, std::ios_base::binary);
     std::int64_t magic = 0;
     stream.read(reinterpret_cast<char*>(&magic), sizeof magic);
@@ -76,6 +78,7 @@ VdbFile readVdb(const std::string& path, const std::function<bool(const VdbConte
 {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) cannotRead(path, "it is a folder");
+    if (readsOnce(path)) cannotRead(path, "it is a pipe or a device, expected a .vdb file");
     errno = 0;
     std::ifstream stream(path, std::ios_base::binary);
     if (!stream) cannotRead(path, std::strerror(errno), mayPass(errno));

@@ -21,14 +21,15 @@ struct VdbFile {
 };
 
 /// True if a file can be read and starts with OpenVDB's magic number, whatever its name: VIPERdb
-/// names PDB files .vdb, too.
+/// names PDB files .vdb, too. False for pipes, whose first bytes would be gone.
 bool isVdbFile(const std::string& path);
 
 /// Reads all of a .vdb file. openvdb::initialize() must have been called.
 ///
 /// @param[in] wanted  tells of what checkVdb() has found whether it is read, or throws an Error
 /// @return nothing if it is not wanted
-/// @throws Error(ErrorKind::Input) if the file does not exist, is no .vdb file or is cut short
+/// @throws Error(ErrorKind::Input) if the file does not exist, is a pipe, is no .vdb file or is cut
+///         short
 VdbFile readVdb(const std::string& path,
                 const std::function<bool(const VdbContent&)>& wanted = nullptr);
 

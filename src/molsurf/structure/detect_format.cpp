@@ -4,6 +4,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/structure/binary_cif.h"
 #include "molsurf/structure/element.h"
+#include "molsurf/structure/load_text.h"
 #include "molsurf/structure/readers.h"
 #include "molsurf/structure/text_fields.h"
 
@@ -113,7 +114,7 @@ bool looksLikeNamedBall(string_view line)
 /// The parts of a file that formats are told by.
 struct StructureSample {
     StructureSample(const std::string& path, const std::string& all)
-        : text(all), extension(lowerExtension(path)), binary(isBinary(all))
+        : text(all), extension(lowerExtension(path)), stream(readsOnce(path)), binary(isBinary(all))
     {
         if (binary) return;
         for (LineReader lines(text); first.empty() && lines.next();) {
@@ -132,6 +133,7 @@ struct StructureSample {
 
     const std::string& text;
     std::string extension;
+    bool stream;             ///< whether it is not from a file
     bool binary;             ///< the rest is found of texts alone
     string_view first;       ///< line that is neither blank nor a comment
     string_view word;        ///< the first one in it
@@ -253,7 +255,11 @@ bool endsWithOneOf(const Sample& sample, std::initializer_list<const char*> endi
 }
 
 const Refusal refusals[] = {
-    {"an OpenVDB file", "", [](const Sample& s) { return s.text.substr(0, 4) == " BDV"; }},
+    {"an OpenVDB file, which is not read from pipes", "",
+     [](const Sample& s) { return s.stream && beginsAs(s, " BDV"); }},
+    {"an OpenVDB file", "", [](const Sample& s) { return beginsAs(s, " BDV"); }},
+    {"a mesh, which compare reads where its name ends in .ply", "",
+     [](const Sample& s) { return beginsAs(s, "ply\n") || beginsAs(s, "ply\r"); }},
     {"MMTF, which the Protein Data Bank no longer has", " [hint: take .bcif.gz of the same entry]",
      [](const Sample& s) { return s.ends(".mmtf") || has(s, "mmtfVersion"); }},
     {"a session of PyMOL", " [hint: in PyMOL, save FILE.cif]",

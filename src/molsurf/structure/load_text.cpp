@@ -297,6 +297,12 @@ void endLinesByLf(std::string& text)
 
 } // namespace
 
+bool readsOnce(const std::string& path)
+{
+    std::error_code ignored;
+    return path == "-" || std::filesystem::is_other(path, ignored);
+}
+
 std::string loadBytes(const std::string& path, std::size_t maxBytes)
 {
     return readBytes(path, Limit(maxBytes));

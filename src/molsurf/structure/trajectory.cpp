@@ -2,6 +2,7 @@
 #include "molsurf/structure/trajectory.h"
 
 #include "molsurf/error.h"
+#include "molsurf/structure/load_text.h"
 #include "molsurf/structure/read_xtc.h"
 #include "molsurf/structure/text_fields.h"
 
@@ -42,6 +43,7 @@ std::vector<openvdb::Vec3f> Trajectory::read(std::size_t frame)
 
 std::unique_ptr<Trajectory> openTrajectory(const std::string& path)
 {
+    if (readsOnce(path)) failAt(path, "is a pipe or a device, expected a trajectory's file");
     if (XtcFile::recognizes(path)) return std::make_unique<XtcFile>(path);
     return openDcd(path);
 }
