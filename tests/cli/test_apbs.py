@@ -182,7 +182,7 @@ class Apbs(ToolTest):
         self.check(1, *words, *self.grid("33 33 33", "16 16 nan"), says="line 3: expected three numbers behind glen")
         (self.folder / "grid.in").write_text("dime 33 33 33\n")
         self.check(1, *words, "--apbs-grid", "grid.in", says="expected dime, glen and gcent, got no glen")
-        self.check(1, *words, "--apbs-grid", "none.in", says="none.in: cannot be read")
+        self.check(1, *words, "--apbs-grid", "none.in", says="none.in: cannot be opened")
         for name in ("pdie", "sdie"):
             self.check(2, *words, f"--{name}", 0, says=f"--{name}")
         self.check(2, *words, "--ion-conc", -1, says="--ion-conc")

@@ -2,11 +2,13 @@
 """What would take too much memory or time is refused before the work, and takes little itself."""
 
 import gzip
+import io
 import json
 import os
 import pathlib
 import random
 import subprocess
+import tarfile
 import time
 import unittest
 
@@ -84,6 +86,20 @@ class Limits(ToolTest):
         (self.folder / "endless.view").symlink_to("/dev/zero")
         self.refuse(CRAMBIN, "--view", "endless.view", *FAST, "-o", "a.png",
                     says=["endless.view: expected at most 1048576 bytes of text\n"])
+
+    def test_a_lattice_without_an_end(self):
+        (self.folder / "a.pqr").write_text("ATOM      1  C   ION     1       0.000   0.000   0.000 1.000 2.000\n")
+        self.refuse("a.pqr", "--for", "apbs", "--apbs-grid", "/dev/zero", "-o", "run/",
+                    says=["/dev/zero: expected at most 1048576 bytes of text\n"])
+
+    def test_a_bomb_in_an_archive(self):
+        with tarfile.open(self.folder / "bomb.tar.gz", "w:gz", compresslevel=6) as archive:
+            member = tarfile.TarInfo("a.pdb")
+            member.size = 40 << 20
+            archive.addfile(member, io.BytesIO(bytes(member.size)))
+        name = "bomb.tar.gz::a.pdb"
+        self.refuse(name, "-o", "a.json", says=[f"{name}: expected at most 16777216 bytes", "--max-input"], most=60 << 20)
+        self.check(1, name, "-o", "a.json", "--max-input", "50M", says="bomb.tar.gz::a.pdb: is ")
 
     def test_plans_without_an_end(self):
         for words in (["run", "/dev/zero", 1], ["merge", "/dev/zero", "-o", "a.ply"]):

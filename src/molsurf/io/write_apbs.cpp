@@ -4,12 +4,13 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/dx_array.h"
+#include "molsurf/structure/load_text.h"
+#include "molsurf/structure/text_fields.h"
 
 #include <openvdb/tools/Interpolation.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -138,13 +139,13 @@ ApbsGrid gridAround(const PointCharges& charges)
 
 ApbsGrid readApbsGrid(const std::string& path, const PointCharges& charges)
 {
-    std::ifstream file(path);
-    if (!file) refuseGrid(path, 0, "cannot be read, expected an input file of APBS");
+    constexpr std::size_t enough = 1 << 20; // bytes
+    const std::string text = loadSmallText(path, enough);
     std::map<std::string, std::array<double, 3>> found;
-    int line = 0, calculations = 0;
-    for (std::string text; std::getline(file, text);) {
-        ++line;
-        std::istringstream words(text.substr(0, text.find('#')));
+    int calculations = 0;
+    for (LineReader lines(text); lines.next();) {
+        const int line = int(lines.number());
+        std::istringstream words{std::string(lines.line().substr(0, lines.line().find('#')))};
         std::string word, second;
         words >> word;
         word = lowered(word);

@@ -42,7 +42,8 @@ ApbsGrid gridAround(const PointCharges& charges);
 
 /// Reads dime, glen (or fglen) and gcent (or fgcent) of the first calculation in an input file of
 /// APBS; the last one of each counts, as APBS takes it.
-/// @throws Error(ErrorKind::Input) with the line, if one is missing or wrong
+/// @throws Error(ErrorKind::Input) with the line, if one is missing or wrong, or if the file has
+///         more than 1 MiB
 ApbsGrid readApbsGrid(const std::string& path, const PointCharges& charges);
 
 /// Checks that a lattice covers the balls.
