@@ -35,6 +35,13 @@ struct Limit {
         if (maxBytes) ratio = std::numeric_limits<std::size_t>::max();
     }
 
+    /// Largest size of a text of which there are so many bytes, packed.
+    std::size_t ofPacked(std::size_t packed) const
+    {
+        const std::size_t likely = packed > bytes / ratio ? bytes : packed * ratio;
+        return std::min(bytes, std::max(likely, unsuspected));
+    }
+
     std::size_t bytes;
     std::size_t ratio = 200;                         ///< of unpacked to packed bytes
     std::size_t unsuspected = std::size_t{16} << 20; ///< unpacked bytes at any ratio
@@ -115,8 +122,11 @@ std::string readAll(std::FILE* file, const std::string& path, std::size_t expect
 std::string readBytes(const std::string& path, const Limit& limit)
 {
     if (path == "-") return readAll(stdin, path, 0, limit);
-    if (const auto member = memberOf(path)) return readMember(*member, limit.bytes);
     std::error_code status;
+    if (const auto member = memberOf(path)) {
+        const std::uintmax_t packed = std::filesystem::file_size(member->archive, status);
+        return readMember(*member, limit.ofPacked(status ? 0 : std::size_t(packed)));
+    }
     if (std::filesystem::is_directory(path, status)) {
         failAt(path, "is a folder, expected a file");
     }
