@@ -116,6 +116,44 @@ class Limits(ToolTest):
                 self.refuse(*words, tool=folder / f"vdb_molsurf_{name}", most=(130 << 20) + limit,
                             says=[f"{limit} bytes"])
 
+    def takes(self, seconds, status, *words, says=""):
+        """Runs the tool, whose processors take fewer seconds."""
+        before = os.times()
+        self.check(status, *words, says=says)
+        after = os.times()
+        spent = after.children_user + after.children_system - before.children_user - before.children_system
+        if not any(name in TOOL for name in ("build-fuzz", "build-tsan", "build-asan", "build-coverage")):
+            self.assertLess(spent, seconds)
+
+    def cif(self, name, rows, more=""):
+        columns = ("id type_symbol label_atom_id label_comp_id label_asym_id label_entity_id Cartn_x Cartn_y Cartn_z "
+                   "auth_seq_id pdbx_PDB_model_num")
+        head = "data_x\nloop_\n" + "".join(f"_atom_site.{column}\n" for column in columns.split())
+        lines = (f"{n} C CA ALA {chain} {entity} {n % 99} {n // 99 % 99} {n // 9801} 1 {model}\n"
+                 for n, (chain, entity, model) in enumerate(rows, 1))
+        (self.folder / name).write_text(head + "".join(lines) + more)
+
+    def test_many_names_in_mmcif(self):
+        """Each is found soon among the others."""
+        many = 50000
+        self.cif("models.cif", (("A", 1, n) for n in range(1, many + 1)))
+        self.takes(1.2, 0, "models.cif", "--dry-run", "--surface", "sas", "-o", "a.json")
+        types = "".join(f"{n} polymer\n" for n in range(many))
+        self.cif("entities.cif", ((f"C{n}", n, 1) for n in range(many)),
+                 f"loop_\n_entity.id\n_entity.type\n{types}")
+        self.takes(2.5, 0, "info", "entities.cif")
+        assemblies = "".join(f"{n} 1 A\n" for n in range(many))
+        matrix = "".join(f"_pdbx_struct_oper_list.{name}\n" for name in (
+            "id", *(f"matrix[{i}][{j}]" for i in (1, 2, 3) for j in (1, 2, 3)), *(f"vector[{i}]" for i in (1, 2, 3))))
+        generated = "".join(f"_pdbx_struct_assembly_gen.{name}\n" for name in ("assembly_id", "oper_expression", "asym_id_list"))
+        self.cif("assemblies.cif", [("A", 1, 1)], f"loop_\n{generated}{assemblies}loop_\n{matrix}1 1 0 0 0 1 0 0 0 1 0 0 0\n")
+        self.takes(2, 0, "assemblies.cif", "--dry-run", "--surface", "sas", "-o", "a.json")
+
+    def test_many_keys_in_a_plan(self):
+        keys = ",".join(f'"k{n}":1' for n in range(50000))
+        (self.folder / "keys.json").write_text("{" + keys + "}")
+        self.takes(1.5, 1, "bricks", "run", "keys.json", 1, says="keys.json: is no plan")
+
     def test_a_line_without_an_end(self):
         """Fields of a line take no more memory than the line."""
         size = 40 << 20

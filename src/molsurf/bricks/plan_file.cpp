@@ -16,14 +16,14 @@ namespace molsurf
 namespace
 {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json; // as it is written
 
 Json json(const openvdb::Coord& c)
 {
     return {c.x(), c.y(), c.z()};
 }
 
-openvdb::Coord coord(const Json& json)
+openvdb::Coord coord(const nlohmann::json& json)
 {
     const auto number = [&](int axis) { return jsonNumber<std::int32_t>(json.at(axis)); };
     return {number(0), number(1), number(2)};
@@ -75,14 +75,15 @@ PlanManifest readManifest(const std::string& path)
         throw Error(ErrorKind::Input, path + ": is a folder, expected a plan");
     const std::string text = loadText(path);
     try {
-        const Json j = Json::parse(text);
+        using Known = nlohmann::json; // finds a key of many soon
+        const Known j = Known::parse(text);
         PlanManifest m;
         m.version = j.at("version");
         m.input = j.at("input");
         m.options = j.at("options").get<std::map<std::string, std::vector<std::string>>>();
-        const auto real = [](const Json& number) { return jsonNumber<double>(number); };
-        const auto count = [](const Json& number) { return jsonNumber<std::size_t>(number); };
-        for (const Json& f : j.at("files")) {
+        const auto real = [](const Known& number) { return jsonNumber<double>(number); };
+        const auto count = [](const Known& number) { return jsonNumber<std::size_t>(number); };
+        for (const Known& f : j.at("files")) {
             m.files.push_back(
                 {f.at("path"), f.at("sha256"), jsonNumber<std::uint64_t>(f.at("bytes"))});
         }
@@ -94,7 +95,7 @@ PlanManifest readManifest(const std::string& path)
         m.plan.maxRadius = real(j.at("largest_radius"));
         m.plan.maxGrownRadius = real(j.at("largest_extent"));
         m.plan.maxTolerance = real(j.at("largest_tolerance"));
-        for (const Json& b : j.at("bricks")) {
+        for (const Known& b : j.at("bricks")) {
             m.plan.bricks.push_back({openvdb::CoordBBox(coord(b.at("min")), coord(b.at("max"))),
                                      count(b.at("atoms")), count(b.at("voxels")),
                                      count(b.at("bytes")), real(b.at("seconds"))});
@@ -102,7 +103,7 @@ PlanManifest readManifest(const std::string& path)
         return m;
     } catch (const std::range_error& e) {
         throw Error(ErrorKind::Input, path + ": is no plan: its " + e.what());
-    } catch (const Json::exception&) {
+    } catch (const nlohmann::json::exception&) {
         throw Error(ErrorKind::Input,
                     path + ": is no plan [hint: vdb_molsurf bricks plan writes one]");
     }

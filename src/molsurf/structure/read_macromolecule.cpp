@@ -21,10 +21,13 @@
 #include <cctype>
 #include <exception>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 namespace molsurf
 {
@@ -216,6 +219,7 @@ std::vector<Assembly> readAssemblies(Block& block)
     readOperators(block, "_pdbx_struct_oper_list.", nullptr,
                   [&](const Operator& op, const std::string&) { operators[op.name] = op; });
     std::vector<Assembly> assemblies;
+    std::unordered_map<std::string, std::size_t> indices; // by name
     std::map<std::pair<std::size_t, std::string>, std::size_t> partOf;
     std::size_t count = 0; // of operators
     auto table = block.find("_pdbx_struct_assembly_gen.",
@@ -226,24 +230,24 @@ std::vector<Assembly> readAssemblies(Block& block)
         chains.erase(std::remove_if(chains.begin(), chains.end(),
                                     [](unsigned char c) { return std::isspace(c) != 0; }),
                      chains.end());
-        auto found = std::find_if(assemblies.begin(), assemblies.end(),
-                                  [&](const Assembly& a) { return a.name == name; });
-        if (found == assemblies.end()) found = assemblies.insert(found, {name, {}, {}});
-        const auto index = std::size_t(found - assemblies.begin());
-        const auto known = partOf.emplace(std::pair(index, expression), found->parts.size());
+        const auto place = indices.emplace(name, assemblies.size());
+        if (place.second) assemblies.push_back({name, {}, {}});
+        const std::size_t index = place.first->second;
+        Assembly& assembly = assemblies[index];
+        const auto known = partOf.emplace(std::pair(index, expression), assembly.parts.size());
         try {
             if (known.second) {
                 if (count > maxOperators)
                     throw Error(ErrorKind::Input, "the assemblies before it have more than " +
                                                       std::to_string(maxOperators) + " operators");
-                found->parts.push_back({{}, expandOperators(expression, operators)});
-                count += found->parts.back().operators.size();
+                assembly.parts.push_back({{}, expandOperators(expression, operators)});
+                count += assembly.parts.back().operators.size();
             }
-            auto& list = found->parts[known.first->second].chains;
+            auto& list = assembly.parts[known.first->second].chains;
             for (std::string& chain : splitList(chains)) list.push_back(std::move(chain));
         } catch (const Error& error) {
             partOf.erase(known.first);
-            found->problem = error.what();
+            assembly.problem = error.what();
         }
     }
     std::vector<Operator> generated;
@@ -309,20 +313,87 @@ std::shared_ptr<const FileBonds> readBonds(Block& block)
     return all->links.empty() && all->residues.empty() ? nullptr : all;
 }
 
-/// Takes out what the atoms do not need: faster, and nothing in it can fail.
+/// Takes out what is not of the atoms: faster, and nothing in it can fail.
 void keepOnlyAtoms(Block& block)
 {
-    constexpr std::array<const char*, 3> needed{"_atom_site.", "_entity.", "_struct_asym."};
     auto isNeeded = [&](const gemmi::cif::Item& item) {
         const std::string* tag = nullptr;
         if (item.type == gemmi::cif::ItemType::Pair) tag = &item.pair[0];
         if (item.type == gemmi::cif::ItemType::Loop) tag = &item.loop.tags.at(0);
-        return tag && std::any_of(needed.begin(), needed.end(), [&](const char* category) {
-                   return gemmi::istarts_with(*tag, gemmi::to_lower(category));
-               });
+        return tag && gemmi::istarts_with(*tag, "_atom_site.");
     };
     auto& items = block.items;
     items.erase(std::remove_if(items.begin(), items.end(), std::not_fn(isNeeded)), items.end());
+}
+
+/// What a block says that its molecules are. gemmi looks through all entities for each chain.
+class EntityTypes
+{
+public:
+    explicit EntityTypes(Block& block)
+    {
+        for (auto row : block.find("_entity.", {"id", "type"}))
+            types_.emplace(row.str(0), gemmi::entity_type_from_string(row.str(1)));
+        auto chains = block.find("_struct_asym.", {"id", "entity_id"});
+        listed_ = chains.ok();
+        for (auto row : chains) {
+            const auto type = types_.find(row.str(1));
+            if (type != types_.end()) ofChain_.emplace(row.str(0), type->second);
+        }
+    }
+
+    /// Sets the types of residues where the block has them; others keep what gemmi takes them for.
+    void set(gemmi::Structure& tree)
+    {
+        for (gemmi::Model& model : tree.models)
+            for (gemmi::Chain& chain : model.chains)
+                for (gemmi::Residue& residue : chain.residues) {
+                    const gemmi::EntityType type = typeOf(residue);
+                    if (type != gemmi::EntityType::Unknown) residue.entity_type = type;
+                }
+    }
+
+private:
+    gemmi::EntityType typeOf(const gemmi::Residue& residue)
+    {
+        const auto known = ofChain_.find(residue.subchain);
+        if (known != ofChain_.end()) return known->second;
+        const auto type = listed_ ? types_.end() : types_.find(residue.entity_id);
+        if (type == types_.end() || residue.subchain.empty()) return gemmi::EntityType::Unknown;
+        return ofChain_.emplace(residue.subchain, type->second).first->second;
+    }
+
+    std::unordered_map<std::string, gemmi::EntityType> types_, ofChain_; // by entity, label chain
+    bool listed_ = false; ///< whether the chains are, or else the atoms name their entities
+};
+
+/// Rows at which a table of atoms may be cut so that each part has few models, from the first row
+/// to the end: gemmi looks through all models for each. No model goes on behind a cut.
+std::vector<std::size_t> cutsByModels(const gemmi::cif::Loop& loop)
+{
+    constexpr std::size_t enough = 256;
+    const int column = loop.find_tag("_atom_site.pdbx_PDB_model_num");
+    std::vector<std::size_t> cuts = {0}, begins;
+    std::vector<std::string> names;                    // of the model that begins there
+    std::unordered_map<std::string, std::size_t> last; // where a model begins the last time
+    const std::string* before = nullptr;
+    for (std::size_t row = 0; column >= 0 && row < loop.length(); ++row) {
+        const std::string& value = loop.values[row * loop.width() + std::size_t(column)];
+        if (before && value == *before) continue;
+        before = &value;
+        begins.push_back(row);
+        names.push_back(gemmi::cif::as_string(value));
+        last[names.back()] = begins.size() - 1;
+    }
+    for (std::size_t n = 0, first = 0, open = 0; n < begins.size(); ++n) {
+        if (n - first >= enough && open < n) {
+            cuts.push_back(begins[n]);
+            first = n;
+        }
+        open = std::max(open, last.at(names[n]));
+    }
+    cuts.push_back(loop.length());
+    return cuts;
 }
 
 /// Makes atoms of a block's rows, with what gemmi reads of it; the next rows are those of other
@@ -330,8 +401,8 @@ void keepOnlyAtoms(Block& block)
 class AtomAdder
 {
 public:
-    AtomAdder(const Block& block, const std::string& path, Structure& out)
-        : path_(path), copier_(out, block.has_tag("_entity.type"))
+    AtomAdder(Block& block, const std::string& path, Structure& out)
+        : path_(path), entities_(block), copier_(out, block.has_tag("_entity.type")), out_(out)
     {
     }
 
@@ -340,15 +411,42 @@ public:
         makeLoop(block, "_atom_site.");
         completeAtomSite(block, path_);
         keepOnlyAtoms(block);
-        const gemmi::Structure tree = gemmi::make_structure_from_block(block);
-        stopIfCancelled(progress);
-        copier_.add(tree, goesOn_);
+        gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
+        const std::vector<std::size_t> cuts =
+            loop ? cutsByModels(*loop) : std::vector<std::size_t>();
+        if (cuts.size() <= 2) {
+            addTree(block, progress, goesOn_);
+        } else {
+            if (out_.atoms.empty()) out_.atoms.reserve(loop->length());
+            for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+                Block part("");
+                part.items.emplace_back(gemmi::cif::LoopArg{});
+                gemmi::cif::Loop& rows = part.items.back().loop;
+                rows.tags = loop->tags;
+                const auto at = [&](std::size_t row) {
+                    return std::make_move_iterator(loop->values.begin() +
+                                                   std::ptrdiff_t(row * loop->width()));
+                };
+                rows.values.assign(at(cuts[k]), at(cuts[k + 1]));
+                addTree(part, progress, goesOn_ && k == 0);
+            }
+        }
         goesOn_ = true;
     }
 
 private:
+    void addTree(const Block& block, const Progress& progress, bool goesOn)
+    {
+        gemmi::Structure tree = gemmi::make_structure_from_block(block);
+        stopIfCancelled(progress);
+        entities_.set(tree);
+        copier_.add(tree, goesOn);
+    }
+
     const std::string& path_;
+    EntityTypes entities_;
     TreeCopier copier_;
+    Structure& out_;
     bool goesOn_ = false;
 };
 

@@ -412,6 +412,62 @@ TEST(ReadMmcif, LongChainsAreCutBetweenResidues)
                                           row("A", "GLY", 4)));
 }
 
+/// One atom of each of many models, of which the last may be one of an earlier model again.
+std::string manyModels(int count, int last)
+{
+    std::string rows;
+    for (int n = 1; n <= count; ++n)
+        rows += "ATOM " + std::to_string(n) + " C CA . GLY A 1 1 2 3 1 0 1 A " +
+                std::to_string(n < count ? n : last) + "\n";
+    return atomSite(full, rows);
+}
+
+TEST(ReadMmcif, ManyModelsAreReadInParts)
+{
+    constexpr int count = 1000;
+    expectSameInPieces(manyModels(count, count));
+    const Structure s =
+        readMmcifInPieces(manyModels(count, count), "a.cif", Progress(), 10 * count);
+    ASSERT_EQ(s.models.size(), std::size_t(count));
+    for (int n = 0; n < count; ++n) {
+        EXPECT_EQ(s.models[std::size_t(n)].number, n + 1);
+        EXPECT_EQ(s.models[std::size_t(n)].begin, std::size_t(n));
+    }
+    for (const int last : {1, 300, 999}) { // such a model has both of its atoms
+        const Structure back = readMmcif(manyModels(count, last));
+        ASSERT_EQ(back.models.size(), std::size_t(count - 1));
+        const Model& model = back.models[std::size_t(last - 1)];
+        EXPECT_EQ(model.number, last);
+        EXPECT_EQ(model.end - model.begin, 2u);
+    }
+}
+
+TEST(ReadMmcif, EntitiesAreOfTheirLabelChains)
+{
+    const std::string atoms = atomSite(full, "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n"
+                                             "HETATM 2 ZN ZN . ZN B . 9 9 9 1 0 101 A 1\n"
+                                             "HETATM 3 O O . HOH C . 0 9 9 1 0 201 A 1\n"
+                                             "ATOM 4 C CA . GLY D 1 5 2 3 1 0 1 D 1\n");
+    const std::string types = "loop_\n_entity.id\n_entity.type\n1 polymer\n2 non-polymer\n3 ?\n#\n";
+    const auto found = [](const std::string& text) {
+        std::vector<EntityHint> out;
+        for (const Residue& residue : readMmcif(text).residues) out.push_back(residue.entity);
+        return out;
+    };
+    using E = EntityHint;
+    const std::string chains =
+        "loop_\n_struct_asym.id\n_struct_asym.entity_id\nA 1\nB 1\nC 3\nD 2\n#\n";
+    EXPECT_EQ(found(atoms + types + chains),
+              (std::vector<E>{E::Polymer, E::Polymer, E::Water, E::Other}));
+    EXPECT_EQ(found(atoms + types), // which no atom names
+              (std::vector<E>{E::Other, E::Other, E::Water, E::Other}));
+    EXPECT_EQ(found(atoms), (std::vector<E>{E::None, E::None, E::None, E::None}));
+    const std::string named =
+        atomSite(full + " label_entity_id", "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1 1\n"
+                                            "ATOM 2 C CA . GLY D 1 5 2 3 1 0 1 D 1 2\n");
+    EXPECT_EQ(found(named + types), (std::vector<E>{E::Polymer, E::Other}));
+}
+
 TEST(ReadMmcif, RowsThatCannotBeCutAreReadAsAWhole)
 {
     const std::string first = "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n";
