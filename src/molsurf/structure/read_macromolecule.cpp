@@ -34,6 +34,21 @@ namespace molsurf
 namespace
 {
 
+/// "line 2, column 1: what is expected" of gemmi's "2:1: what is wrong"; other texts as they are.
+std::string withPlace(const std::string& text)
+{
+    const std::size_t line = text.find(':'), column = text.find(": ", line + 1);
+    const auto isNumber = [&](std::size_t begin, std::size_t end) {
+        return end != std::string::npos && begin < end &&
+               std::all_of(text.begin() + std::ptrdiff_t(begin), text.begin() + std::ptrdiff_t(end),
+                           isDigit);
+    };
+    if (!isNumber(0, line) || !isNumber(line + 1, column)) return text;
+    const std::string what = text.substr(column + 2);
+    return "line " + text.substr(0, line) + ", column " + text.substr(line + 1, column - line - 1) +
+           ": " + (what == "parse error" ? "expected a tag, a value or a keyword of CIF" : what);
+}
+
 /// gemmi's message in one line, without the path that it may start with.
 std::string oneLine(const std::exception& error, const std::string& path)
 {
@@ -42,8 +57,8 @@ std::string oneLine(const std::exception& error, const std::string& path)
     for (char& c : text) {
         if (static_cast<unsigned char>(c) < ' ') c = ' ';
     }
-    return text.substr(
-        text.find_first_not_of(' ') == std::string::npos ? 0 : text.find_first_not_of(' '));
+    return withPlace(text.substr(
+        text.find_first_not_of(' ') == std::string::npos ? 0 : text.find_first_not_of(' ')));
 }
 
 using gemmi::cif::Block;
@@ -132,6 +147,21 @@ void completeNumbers(gemmi::cif::Loop& loop)
     }
 }
 
+/// Refuses alternate locations of several letters.
+void checkAlternates(const gemmi::cif::Loop& loop, const std::string& path)
+{
+    const int column = loop.find_tag("_atom_site.label_alt_id");
+    if (column < 0) return;
+    for (std::size_t at = std::size_t(column); at < loop.values.size(); at += loop.width()) {
+        if (loop.values[at].size() < 2) continue;
+        const std::string value = gemmi::cif::as_string(loop.values[at]);
+        if (value.size() > 1)
+            failAt(path, "_atom_site.label_alt_id of atom " +
+                             std::to_string(at / loop.width() + 1) +
+                             ": expected one character, got " + inQuotes(value));
+    }
+}
+
 /// Adds the columns without which gemmi's reader finds no atoms, if they can be made up.
 void completeAtomSite(Block& block, const std::string& path)
 {
@@ -154,6 +184,7 @@ void completeAtomSite(Block& block, const std::string& path)
     if (!copySequence && !has("auth_seq_id")) failAt(path, "_atom_site has no column auth_seq_id");
     if (!item) return;
     gemmi::cif::Loop& loop = item->loop;
+    checkAlternates(loop, path);
     if (!copySequence) completeNumbers(loop);
     if (missing.empty() && !copySequence) return;
     const int sequence = loop.find_tag("_atom_site.label_seq_id");

@@ -166,7 +166,13 @@ TEST(ReadMmcif, RefusesWhatIsCutShortOrBroken)
     EXPECT_HAS(message, "Wrong number of values in ");
     EXPECT_HAS(message, "a.cif: "); // the path, once
     EXPECT_EQ(message.find("a.cif"), message.rfind("a.cif"));
-    EXPECT_HAS(mmcifError("loop_\n_atom_site.id\n1\n"), "expected block header");
+    EXPECT_HAS(mmcifError("loop_\n_atom_site.id\n1\n"),
+               "a.cif: line 1, column 1: expected block header");
+    EXPECT_HAS(mmcifError("data_x\n_a 1 2\n"), "a.cif: line 2, column 6: expected a tag, a value");
+    const std::string two = "ATOM 1 C CA . GLY A 1 1 2 3 1 0 1 A 1\n"
+                            "ATOM 2 C CB 'a0' GLY A 1 1 2 4 1 0 1 A 1\n";
+    EXPECT_HAS(mmcifError(atomSite(full, two)),
+               "label_alt_id of atom 2: expected one character, got \"a0\"");
 }
 
 TEST(ReadMmcif, RefusesCoordinatesThatAreNoNumbers)
