@@ -33,7 +33,7 @@ std::vector<std::string> describePlan(const BrickPlan& plan)
         all.bytes = std::max(all.bytes, brick.bytes);
         all.seconds += brick.seconds;
     }
-    return {std::to_string(plan.atoms) + " atoms, " +
+    return {counted(plan.atoms, "atom", "atoms") + ", " +
             counted(plan.bricks.size(), "brick", "bricks") + ", " + costText(all)};
 }
 

@@ -51,6 +51,10 @@ class Bricks(ToolTest):
     def report(self, name):
         return json.loads((self.folder / name).read_text())
 
+    def test_a_plan_of_one_atom(self):
+        (self.folder / "one.xyzr").write_text("0 0 0 2\n")
+        self.check(0, "bricks", "plan", "one.xyzr", "-o", "plan.json", "--bricks", "1", *FAST, *STEPS, says="1 atom, 1 brick, ")
+
     def test_plans_keep_switches(self):
         plan = self.plan(2, "--waters")
         self.assertEqual(plan["options"]["waters"], [])

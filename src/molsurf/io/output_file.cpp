@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-std::string hint(int reason)
+std::string hint(const std::string& path, int reason)
 {
     switch (reason) {
     case ENOSPC:
@@ -33,8 +33,12 @@ std::string hint(int reason)
     case EPERM:
     case EROFS:
         return " [hint: choose a folder you may write to]";
-    case ENOENT:
-        return " [hint: make the folder first]";
+    case ENOENT: { // of a folder that is there only the system knows why
+        const fs::path folder = fs::path(path).parent_path();
+        std::error_code ignored;
+        const bool there = folder.empty() || fs::is_directory(folder, ignored);
+        return there ? "" : " [hint: make the folder first]";
+    }
     case ENAMETOOLONG:
         return " [hint: a shorter name]";
     default:
@@ -51,7 +55,7 @@ std::string hint(int reason)
 [[noreturn]] void refuse(const std::string& path, const std::string& what, int reason)
 {
     throw Error(ErrorKind::Output,
-                "cannot write " + path + ": " + what + std::strerror(reason) + hint(reason),
+                "cannot write " + path + ": " + what + std::strerror(reason) + hint(path, reason),
                 mayPass(reason));
 }
 
@@ -191,7 +195,8 @@ void OutputFile::fail(const char* step) const
     const int reason = errno;
     const std::string name = path_ == "-" ? "standard output" : path_;
     const std::string message = std::string(step) + " " + name + ": " +
-                                (reason ? std::strerror(reason) : "unknown reason") + hint(reason);
+                                (reason ? std::strerror(reason) : "unknown reason") +
+                                hint(path_, reason);
     if (reason == EPIPE) throw NoReader(message);
     throw Error(ErrorKind::Output, message, mayPass(reason));
 }

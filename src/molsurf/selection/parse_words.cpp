@@ -116,7 +116,8 @@ public:
     [[noreturn]] void fail(const std::string& expected, const std::string& hint = "",
                            std::size_t at = std::string::npos) const
     {
-        const Letters here = from(*this, at);
+        Letters here = from(*this, at);
+        here.skipBlanks();
         const string_view got = here.atEnd() ? "" : here.token();
         std::size_t column = 1; // of characters
         for (std::size_t i = 0; i < here.at_ && i < text_.size(); ++i)

@@ -149,6 +149,9 @@ TEST(Words, NameThePlaceAndTheNearestWord)
               "within, got \"protien\" at 1 [hint: did you mean protein?]");
     EXPECT_HAS(refusalOf("protien"), "[hint: did you mean protein?]");
     EXPECT_HAS(refusalOf("chain \"é\" and protien"), "got \"protien\" at 15"); // letters, not bytes
+    std::string deep;
+    for (int n = 0; n < 200; ++n) deep += "not ";
+    EXPECT_HAS(refusalOf(deep + "all"), "operators in each other, got \"not\" at 397");
     EXPECT_HAS(refusalOf("within -1 of chain A"), "a distance of at least 0 Å, got \"-1\" at 8");
     EXPECT_HAS(refusalOf("(chain A or chain B"), "expected ) for the bracket at 1, got the end");
     EXPECT_HAS(refusalOf("chain A)"), "within, around or the end, got \")\" at 8");
