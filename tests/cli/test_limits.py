@@ -154,6 +154,16 @@ class Limits(ToolTest):
         (self.folder / "keys.json").write_text("{" + keys + "}")
         self.takes(1.5, 1, "bricks", "run", "keys.json", 1, says="keys.json: is no plan")
 
+    def test_json_that_takes_many_times_its_size(self):
+        size = 20 << 20
+        for name, text in (("deep", '{"a":' * (size // 5)), ("array", '{"a":' + "[" * size), ("digits", '{"a":' + "7" * size),
+                           ("text", '{"a":"' + "7" * size), ("values", '{"a":[' + "0," * (size // 2))):
+            (self.folder / f"{name}.json").write_text(text)
+            with self.subTest(name=name):
+                self.refuse("bricks", "run", f"{name}.json", 1, says=["is no plan"], most=(60 << 20) + 2 * size)
+                self.refuse(CRAMBIN, "--groups", f"{name}.json", "-o", "a.ply", says=["is no JSON of groups"],
+                            most=(60 << 20) + 2 * size)
+
     def test_a_line_without_an_end(self):
         """Fields of a line take no more memory than the line."""
         size = 40 << 20

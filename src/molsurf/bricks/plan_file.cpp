@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/plan_file.h"
 
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/json_number.h"
 #include "molsurf/structure/load_text.h"
@@ -74,6 +75,8 @@ PlanManifest readManifest(const std::string& path)
     if (std::filesystem::is_directory(path, ignored))
         throw Error(ErrorKind::Input, path + ": is a folder, expected a plan");
     const std::string text = loadText(path);
+    const std::string noPlan = path + ": is no plan [hint: vdb_molsurf bricks plan writes one]";
+    if (!isModestJson(text)) throw Error(ErrorKind::Input, noPlan);
     try {
         using Known = nlohmann::json; // finds a key of many soon
         const Known j = Known::parse(text);
@@ -104,8 +107,7 @@ PlanManifest readManifest(const std::string& path)
     } catch (const std::range_error& e) {
         throw Error(ErrorKind::Input, path + ": is no plan: its " + e.what());
     } catch (const nlohmann::json::exception&) {
-        throw Error(ErrorKind::Input,
-                    path + ": is no plan [hint: vdb_molsurf bricks plan writes one]");
+        throw Error(ErrorKind::Input, noPlan);
     }
 }
 

@@ -131,4 +131,27 @@ std::string didYouMean(const std::string& typed, const std::vector<std::string>&
     return best.empty() ? "" : " [hint: did you mean " + best + "?]";
 }
 
+bool isModestJson(std::string_view text)
+{
+    constexpr int deepest = 64;
+    constexpr std::size_t longest = 1 << 20, perComma = 4;
+    int depth = 0;
+    bool quoted = false;
+    std::size_t begin = 0, commas = 0; // of the text, or of what is between two signs
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (i - begin > longest) return false;
+        const char c = text[i];
+        if (quoted && c == '\\') ++i;
+        if (c == '"') quoted = !quoted;
+        if (quoted && c != '"') continue;
+        if (c == '[' || c == '{') ++depth;
+        if (c == ']' || c == '}') --depth;
+        if (depth > deepest) return false;
+        if (c == ',') ++commas;
+        if (std::string_view(" \t\r\n[]{},:\"").find(c) != std::string_view::npos) begin = i;
+    }
+    return text.size() - begin <= longest &&
+           (text.size() <= longest || commas * perComma < text.size());
+}
+
 } // namespace molsurf

@@ -44,6 +44,11 @@ bool parseWhole(std::string_view text, T& value)
 /// A number with the fewest digits that give it back.
 std::string shortest(double number);
 
+/// Whether a JSON text is one of those that take their parser no more than a few times their
+/// memory: no deeper than 64, no text or number above 1 MiB, and beyond 1 MiB less than a comma for
+/// each 4 bytes. Whether it is valid is not asked.
+bool isModestJson(std::string_view text);
+
 /// "1 atom", "2 atoms".
 std::string counted(std::size_t count, const std::string& one, const std::string& many);
 

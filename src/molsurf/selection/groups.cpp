@@ -48,6 +48,7 @@ CopyChoice copiesOf(const std::string& group, const std::string& text)
 
 std::vector<GroupRule> readJson(const std::string& path, const std::string& text)
 {
+    if (!isModestJson(text)) fail(path, "is no JSON of groups: too deep, or with too many values");
     const auto json = nlohmann::json::parse(text, nullptr, false);
     if (json.is_discarded()) fail(path, "is no valid JSON");
     if (!json.is_object() || !json.contains("groups") || !json["groups"].is_array()) {
