@@ -36,8 +36,7 @@ constexpr ReportKey keyTable[] = {
     {"surface.euler_characteristic", "",
      "Euler number of all walls: twice their number less twice the tunnels. For ses, sas and vdw "
      "that of the exact boundary; null in bricks, for ses by symmetry, where units do not add up "
-     "to "
-     "a closed one, or four probes touch in one point"},
+     "to a closed one or were glued otherwise than they meet, or four probes touch in one point"},
     {"surface.mesh_euler_characteristic", "",
      "Euler number of the mesh, which on ses, sas and vdw bridges gaps narrower than a voxel. Null "
      "without a mesh"},
@@ -136,8 +135,9 @@ constexpr ReportKey keyTable[] = {
      "Number of those that tension closes although no atom fills them"},
     {"evolution.gaps.nearest", "", "Least distance from the decision, as a value of psi"},
     {"evolution.gaps.closed_by_field", "",
-     "Number of passages and voids that a probe fits into and the field closes; not with "
-     "resolution"},
+     "Number of passages and voids that a probe fits into and the field closes, so that the "
+     "surface "
+     "is closed there too; not with resolution"},
     {"evolution.gaps.widest_closed", "Å", "Most room beside the probe in one of these"},
     {"evolution.walls", "",
      "Thin walls and necks decided by psi; null where gaps are, and on voxels above 0.75 Å or two "
