@@ -22,16 +22,20 @@ struct Closed {
     double level; ///< psi is above it: Gap::closedAbove()
 };
 
-/// Whether a point lies outside of the surface: psi falls to a level within the inset of it.
-bool isOutside(const Vec3d& x, double level, double inset, const PassageField& field)
+/// Whether a gap that the field closes is open in a surface that lies `inset` inside of the
+/// interface: this is within so much of it.
+/// @param[in] level  the interface may lie that low where tension closes the gap
+bool isOpenInside(const Gap& gap, double level, double inset, const PassageField& field)
 {
-    constexpr int directions = 64;                     // 0.5 Å apart at 1.4 Å
-    const double turn = M_PI * (3.0 - std::sqrt(5.0)); // the golden angle
+    if (inset <= 0.0) return false;
+    const double interface = gap.psi > 0.0 ? 0.0 : level; // psi of it
+    constexpr int directions = 64;                        // 0.5 Å apart at 1.4 Å
+    const double turn = M_PI * (3.0 - std::sqrt(5.0));    // the golden angle
     for (int i = 0; i < directions; ++i) {
         const double z = 1.0 - (2.0 * i + 1.0) / directions, r = std::sqrt(1.0 - z * z);
         const Vec3d way(r * std::cos(turn * i), r * std::sin(turn * i), z);
         for (const double share : {1.0, 0.6})
-            if (field.jet(x + share * inset * way).psi <= level) return true;
+            if (field.jet(gap.place + share * inset * way).psi <= interface) return true;
     }
     return false;
 }
@@ -97,7 +101,7 @@ void countClosedByField(const std::vector<Gap>& gaps, const PassageField& field,
     for (const Gap& gap : gaps) {
         const double level = gap.closedAbove(rule.gradient, rule.area);
         const double room = gap.psi > level ? field.room(gap.place) : 0.0;
-        if (room <= 0.0 || isOutside(gap.place, level, rule.inset, field)) continue;
+        if (room <= 0.0 || isOpenInside(gap, level, rule.inset, field)) continue;
         points.push_back({gap, room, level});
     }
     const std::vector<std::size_t> pores = poresOf(points, field);

@@ -102,6 +102,12 @@ TEST(ClosedPassages, AreNotThoseWhereTheSurfaceIsOpen)
 {
     GapRule inside{0.01};
     inside.inset = 1.4;
+    std::vector<Ball> four; // the corners of a square
+    for (int i = 0; i < 4; ++i)
+        four.push_back(
+            {{i % 2 ? 0.0 : 3.4 * (1 - i), i % 2 ? 3.4 * (2 - i) : 0.0, 0.0}, carbon, 0});
+    EXPECT_EQ(*gapsOf(four, 0.5, 0.5).closedByField, 1u);
+    EXPECT_EQ(*gapsOf(four, 0.5, 0.5, inside).closedByField, 0u);
     EXPECT_EQ(*gapsOf(tube(1, grown + 0.3), 0.5, 0.5).closedByField, 1u);
     EXPECT_EQ(*gapsOf(tube(1, grown + 0.3), 0.5, 0.5, inside).closedByField, 0u);
     EXPECT_EQ(*gapsOf(tube(12, grown + 0.8), 0.5, 0.5, inside).closedByField, 1u);
