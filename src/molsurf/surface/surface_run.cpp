@@ -70,7 +70,8 @@ void SurfaceRun::density()
     if (auto rule = gapRuleOf(options_)) {
         rule->countsClosed = atoms_.decays.empty();
         decided = [this, rule](const SparseField& psi) {
-            return bumpsOfGaps(*sum_, psi, *rule, progress_, gaps_.emplace());
+            gaps_ = GapReport();
+            return bumpsOfGaps(*sum_, psi, *rule, progress_, *gaps_);
         };
     }
     SparseField psi =
