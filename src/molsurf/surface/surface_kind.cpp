@@ -136,7 +136,7 @@ std::optional<GapRule> gapRuleOf(const SurfaceSpec& spec)
 {
     if (!hasFlow(spec.kind) || !decidesGaps(spec.evolution)) return {};
     const Weights weights = weightsOf(spec.evolution);
-    return GapRule{weights.gradient, weights.area, true, offsetOf(spec)};
+    return GapRule{weights.gradient, weights.area};
 }
 
 bool decidesWalls(const SurfaceSpec& spec)

@@ -71,7 +71,10 @@ void SurfaceRun::density()
         rule->countsClosed = atoms_.decays.empty();
         decided = [this, rule](const SparseField& psi) {
             gaps_ = GapReport();
-            return bumpsOfGaps(*sum_, psi, *rule, progress_, *gaps_);
+            DecidedGaps gaps;
+            Bumps bumps = bumpsOfGaps(*sum_, psi, *rule, progress_, *gaps_, &gaps);
+            if (rule->countsClosed) passages_ = std::move(gaps.passages);
+            return bumps;
         };
     }
     SparseField psi =
@@ -287,7 +290,22 @@ void SurfaceRun::spline()
     progress_.update("spline", 0.0);
     spline_ = fitSpline(S_.phi, options_.splineLevel, progress_);
     if (options_.splineLevel > 0) resample(S_.phi, spline_, progress_);
+    countClosedPassages();
     watch_.stop("spline");
+}
+
+/// Reports what the field closes, where the surface that was found is closed: once, before cavities
+/// are filled.
+void SurfaceRun::countClosedPassages()
+{
+    if (!passages_ || !scope_.region.whole()) return;
+    SplineSampler sampler(spline_);
+    const auto isClosed = [&](const openvdb::Vec3d& x) {
+        const openvdb::Coord voxel = openvdb::Coord::round(x / spline_.voxelSize());
+        return spline_.table().find(voxel) == noLeaf || sampler.at(x).value < 0.0;
+    };
+    countClosed(*passages_, isClosed, *result_.report.evolution->gaps);
+    passages_.reset();
 }
 
 void SurfaceRun::levelSet()

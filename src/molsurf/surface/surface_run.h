@@ -15,6 +15,7 @@
 #include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/influence.h"
 #include "molsurf/surface/surface_kind.h"
+#include "molsurf/topology/closed_passages.h"
 #include "molsurf/topology/decision.h"
 
 #include <chrono>
@@ -174,6 +175,7 @@ private:
     void rest();
     void checkLeft() const;
     bool keepsLevelSet() const;
+    void countClosedPassages();
     SparseField takeCarrier();
     DistanceBand distanceToBalls();
     DistanceBand distanceToInterface();
@@ -187,10 +189,11 @@ private:
     MolecularSurface result_;
     Stopwatch watch_;
     std::optional<GaussianSum> sum_;
-    std::optional<GapReport> gaps_; ///< how they were decided
-    Bumps bumps_;                   ///< that the sum adds to psi
-    NarrowBand band_;               ///< the level set that a smooth surface is offset from
-    SparseField carrier_;           ///< psi, then the interface, where it rests in closed form
+    std::optional<GapReport> gaps_;                      ///< how they were decided
+    std::optional<std::vector<ClosedPassage>> passages_; ///< that were not counted yet
+    Bumps bumps_;                                        ///< that the sum adds to psi
+    NarrowBand band_;     ///< the level set that a smooth surface is offset from
+    SparseField carrier_; ///< psi, then the interface, where it rests in closed form
     Displacements displacements_;
     DistanceBand S_;
     Spline spline_;

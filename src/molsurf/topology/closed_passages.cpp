@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <set>
 
 namespace molsurf
 {
@@ -21,24 +23,6 @@ struct Closed {
     double room;  ///< [Å], > 0
     double level; ///< psi is above it: Gap::closedAbove()
 };
-
-/// Whether a gap that the field closes is open in a surface that lies `inset` inside of the
-/// interface: this is within so much of it.
-/// @param[in] level  the interface may lie that low where tension closes the gap
-bool isOpenInside(const Gap& gap, double level, double inset, const PassageField& field)
-{
-    if (inset <= 0.0) return false;
-    const double interface = gap.psi > 0.0 ? 0.0 : level; // psi of it
-    constexpr int directions = 64;                        // 0.5 Å apart at 1.4 Å
-    const double turn = M_PI * (3.0 - std::sqrt(5.0));    // the golden angle
-    for (int i = 0; i < directions; ++i) {
-        const double z = 1.0 - (2.0 * i + 1.0) / directions, r = std::sqrt(1.0 - z * z);
-        const Vec3d way(r * std::cos(turn * i), r * std::sin(turn * i), z);
-        for (const double share : {1.0, 0.6})
-            if (field.jet(gap.place + share * inset * way).psi <= interface) return true;
-    }
-    return false;
-}
 
 /// Whether no ball lies between two points, and psi is above a level there.
 bool inOnePore(const Vec3d& a, const Vec3d& b, double level, const PassageField& field)
@@ -94,31 +78,42 @@ double timesToOpen(const Vec3d& place, const PassageField& field, const GapRule&
 
 } // namespace
 
-void countClosedByField(const std::vector<Gap>& gaps, const PassageField& field,
-                        const GapRule& rule, double epsilon, GapReport& report)
+std::vector<ClosedPassage> closedPassages(const std::vector<Gap>& gaps, const PassageField& field,
+                                          const GapRule& rule, double epsilon)
 {
     std::vector<Closed> points;
     for (const Gap& gap : gaps) {
         const double level = gap.closedAbove(rule.gradient, rule.area);
         const double room = gap.psi > level ? field.room(gap.place) : 0.0;
-        if (room <= 0.0 || isOpenInside(gap, level, rule.inset, field)) continue;
-        points.push_back({gap, room, level});
+        if (room > 0.0) points.push_back({gap, room, level});
     }
     const std::vector<std::size_t> pores = poresOf(points, field);
-    std::size_t count = 0, widest = 0;
+    std::vector<ClosedPassage> out;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        count += pores[i] == i;
-        if (points[i].room > points[widest].room) widest = i;
+        const double times = timesToOpen(points[i].gap.place, field, rule);
+        out.push_back({points[i].gap.place, points[i].room, epsilon / times, pores[i]});
     }
-    report.closedByField = count;
-    if (count == 0) return;
-    report.widestClosed = points[widest].room;
+    return out;
+}
+
+void countClosed(const std::vector<ClosedPassage>& passages,
+                 const std::function<bool(const Vec3d&)>& isClosed, GapReport& report)
+{
+    std::vector<ClosedPassage> closed;
+    std::copy_if(passages.begin(), passages.end(), std::back_inserter(closed),
+                 [&](const ClosedPassage& p) { return isClosed(p.place); });
+    std::set<std::size_t> pores;
+    for (const ClosedPassage& passage : closed) pores.insert(passage.pore);
+    report.closedByField = pores.size();
+    if (closed.empty()) return;
+    const auto narrower = [](const auto& a, const auto& b) { return a.room < b.room; };
+    const ClosedPassage widest = *std::max_element(closed.begin(), closed.end(), narrower);
+    report.widestClosed = widest.room;
     constexpr double about = 0.8; // a narrower neck may stay closed
-    double times = 1.0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (pores[i] == pores[widest] && points[i].room > about * points[widest].room)
-            times = std::max(times, timesToOpen(points[i].gap.place, field, rule));
-    report.opensBelow = epsilon / times;
+    report.opensBelow = widest.opensBelow;
+    for (const ClosedPassage& passage : closed)
+        if (passage.pore == widest.pore && passage.room > about * widest.room)
+            report.opensBelow = std::min(report.opensBelow, passage.opensBelow);
 }
 
 } // namespace molsurf

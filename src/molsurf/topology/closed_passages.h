@@ -7,6 +7,7 @@
 
 #include "molsurf/topology/gaps.h"
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -22,11 +23,24 @@ struct PassageField {
     std::function<PsiJet(const openvdb::Vec3d&, double)> sharpened;
 };
 
-/// Counts the passages and voids that the field closes although no ball covers them, and in which
-/// the surface is closed too: it lies rule.inset farther inside. Those in one pore are one.
+/// A place that the field closes although no ball covers it.
+struct ClosedPassage {
+    openvdb::Vec3d place; ///< [Å]
+    double room;          ///< beside the probe [Å], > 0
+    double opensBelow;    ///< the tolerance eps at which it opens [Å]
+    std::size_t pore;     ///< of those with this number, no ball lies between one and the next
+};
+
+/// Finds the places that the field closes.
 /// @param[in] gaps  distinct
+std::vector<ClosedPassage> closedPassages(const std::vector<Gap>& gaps, const PassageField& field,
+                                          const GapRule& rule, double epsilon);
+
+/// Counts the pores in which a surface is closed. It may lie inside of the interface, and then is
+/// open where what closes that is thin.
+/// @param[in] isClosed  whether a place lies inside of the surface
 /// @param[in,out] report  gets closedByField, widestClosed and opensBelow
-void countClosedByField(const std::vector<Gap>& gaps, const PassageField& field,
-                        const GapRule& rule, double epsilon, GapReport& report);
+void countClosed(const std::vector<ClosedPassage>& passages,
+                 const std::function<bool(const openvdb::Vec3d&)>& isClosed, GapReport& report);
 
 } // namespace molsurf

@@ -33,9 +33,8 @@ struct Gap {
 struct GapRule {
     double gradient = 0.0;    ///< lambda of the gradient regulariser [Å^2]
     double area = 0.0;        ///< lambda of the area regulariser
-    bool countsClosed = true; ///< whether the report has what the field closes: not where balls
+    bool countsClosed = true; ///< whether what the field closes is looked for: not where balls
                               ///< have rates of their own
-    double inset = 0.0;       ///< how far inside of psi = 0 the surface lies [Å]
 };
 
 /// The gaps farther than this from psi = 0 are none.

@@ -30,13 +30,14 @@ Bumps bumpsOfGaps(const GaussianSum& sum, const SparseField& psi, const GapRule&
     Bumps bumps(psi.voxelSize);
     holdGaps(jet, gaps, decisions, psi.voxelSize, bumps);
     report = reportOf(decisions, farthestGap);
+    if (!decided) return bumps;
+    *decided = {gaps, decisions, {}};
     if (rule.countsClosed) {
         const PassageField field{
             jet, [&](const Vec3d& x) { return sum.roomAt(x); },
             [&](const Vec3d& x, double times) { return sum.sharpenedJet(x, times); }};
-        countClosedByField(all, field, rule, sum.epsilon(), report);
+        decided->passages = closedPassages(all, field, rule, sum.epsilon());
     }
-    if (decided) *decided = {gaps, decisions};
     return bumps;
 }
 

@@ -5,6 +5,7 @@
 /// The gaps of a sum of Gaussians: found, decided and held.
 
 #include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/topology/closed_passages.h"
 #include "molsurf/topology/gaps.h"
 
 #include <cstdint>
@@ -13,16 +14,17 @@
 namespace molsurf
 {
 
-/// Gaps and what is decided of each.
+/// Gaps and what is decided of each, and what the field closes.
 struct DecidedGaps {
     std::vector<Gap> gaps;
     std::vector<Decision> decisions;
+    std::vector<ClosedPassage> passages; ///< if the rule asks for them
 };
 
 /// Finds the gaps of a sum, decides them by decideGaps(), and makes the bumps of holdGaps().
 /// @param[in]  psi     of the sum where bounds do not decide its sign: see GaussianSum::BumpsFor
-/// @param[out] report  how they were decided, and what the field closes if the rule says so
-/// @param[out] decided  null, or the gaps and their decisions
+/// @param[out] report   how they were decided
+/// @param[out] decided  null, or the gaps and their decisions, and what the field closes
 /// @return for GaussianSum::band()
 Bumps bumpsOfGaps(const GaussianSum& sum, const SparseField& psi, const GapRule& rule,
                   const Progress& progress, GapReport& report, DecidedGaps* decided = nullptr);

@@ -182,5 +182,23 @@ TEST(Gaps, AreDecidedByTheRegulariserOfTheSurface)
     }
 }
 
+/// The field closes the hole of a ring at psi = 0, and the surface a probe radius inside of that
+/// is open if its wall there would be thin.
+TEST(Gaps, OpenInTheSurfaceAreNotSaidToBeClosed)
+{
+    std::mt19937 random(5);
+    for (const int atoms : {5, 6}) {
+        for (const double beyond : {-0.3, -0.05, 0.05, 0.3}) {
+            const std::vector<Vec3d> centres = test::ring(atoms, probe + thinnestWall + beyond);
+            const Report report =
+                test::runOn(ballsAt(centres, test::randomMotion(random)), SurfaceOptions()).report;
+            SCOPED_TRACE(std::to_string(atoms) + " " + std::to_string(beyond));
+            EXPECT_EQ(report.surface.eulerCharacteristic, beyond > 0.0 ? 2 : 0);
+            EXPECT_EQ(report.evolution->gaps->closedByField, beyond > 0.0 ? 1u : 0u);
+            EXPECT_EQ(report.evolution->gaps->widestClosed > 0.0, beyond > 0.0);
+        }
+    }
+}
+
 } // namespace
 } // namespace molsurf

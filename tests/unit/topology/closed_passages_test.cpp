@@ -55,9 +55,12 @@ GapReport gapsOf(const std::vector<Ball>& balls, double voxel, double epsilon,
     options.reach = 4.5 * voxel;
     GaussianSum sum(balls, options);
     GapReport report;
+    DecidedGaps found;
     sum.band(3, Progress(), openvdb::CoordBBox::inf(), [&](const SparseField& psi) {
-        return bumpsOfGaps(sum, psi, rule, Progress(), report);
+        return bumpsOfGaps(sum, psi, rule, Progress(), report, &found);
     });
+    countClosed(
+        found.passages, [](const Vec3d&) { return true; }, report);
     return report;
 }
 
@@ -96,22 +99,24 @@ TEST(ClosedPassages, OfATubeAreOne)
     EXPECT_EQ(*gapsOf(two, 0.5, 0.5).closedByField, 2u);
 }
 
-/// A ring that the field closes at psi = 0 is open where a surface lies a probe radius inside of
-/// that; a long tube is closed there too.
-TEST(ClosedPassages, AreNotThoseWhereTheSurfaceIsOpen)
+/// A pore is closed where one of its places is, and the report is of those alone.
+TEST(ClosedPassages, AreThoseWhereTheSurfaceIsClosed)
 {
-    GapRule inside{0.01};
-    inside.inset = 1.4;
-    std::vector<Ball> four; // the corners of a square
-    for (int i = 0; i < 4; ++i)
-        four.push_back(
-            {{i % 2 ? 0.0 : 3.4 * (1 - i), i % 2 ? 3.4 * (2 - i) : 0.0, 0.0}, carbon, 0});
-    EXPECT_EQ(*gapsOf(four, 0.5, 0.5).closedByField, 1u);
-    EXPECT_EQ(*gapsOf(four, 0.5, 0.5, inside).closedByField, 0u);
-    EXPECT_EQ(*gapsOf(tube(1, grown + 0.3), 0.5, 0.5).closedByField, 1u);
-    EXPECT_EQ(*gapsOf(tube(1, grown + 0.3), 0.5, 0.5, inside).closedByField, 0u);
-    EXPECT_EQ(*gapsOf(tube(12, grown + 0.8), 0.5, 0.5, inside).closedByField, 1u);
-    EXPECT_EQ(*gapsOf(cage(60, grown + 0.8), 0.5, 0.5, inside).closedByField, 1u);
+    const std::vector<ClosedPassage> all = {{{0, 0, 0}, 0.9, 0.1, 0},
+                                            {{1, 0, 0}, 0.5, 0.3, 1},
+                                            {{2, 0, 0}, 0.45, 0.2, 1},
+                                            {{3, 0, 0}, 0.3, 0.05, 1}};
+    GapReport report;
+    countClosed(
+        all, [](const Vec3d& x) { return x.x() > 0.5; }, report);
+    EXPECT_EQ(report.closedByField, 1u);
+    EXPECT_EQ(report.widestClosed, 0.5);
+    EXPECT_EQ(report.opensBelow, 0.2);
+    GapReport none;
+    countClosed(
+        all, [](const Vec3d&) { return false; }, none);
+    EXPECT_EQ(none.closedByField, 0u);
+    EXPECT_EQ(none.widestClosed, 0.0);
 }
 
 /// Voids beside each other are two, however near, and the widest counts.
@@ -149,9 +154,10 @@ TEST(ClosedPassages, OpenBelowTheToleranceThatTheReportHas)
     }
 }
 
-TEST(ClosedPassages, AreNotCountedWhereBallsHaveRates)
+TEST(ClosedPassages, AreNotLookedForWhereBallsHaveRates)
 {
-    EXPECT_FALSE(gapsOf(cage(60, grown + 0.5), 0.5, 0.5, {0.01, 0.0, false}).closedByField);
+    EXPECT_EQ(gapsOf(cage(60, grown + 0.5), 0.5, 0.5).closedByField, 1u);
+    EXPECT_EQ(gapsOf(cage(60, grown + 0.5), 0.5, 0.5, {0.01, 0.0, false}).closedByField, 0u);
 }
 
 /// Places of psi as given, in a row along x with room about them; psi between them is `between`.
@@ -167,7 +173,8 @@ GapReport closedAmong(const std::vector<Gap>& gaps, double between,
                                  return at(times < limit ? 1.0 : -1.0);
                              }};
     GapReport report;
-    countClosedByField(gaps, field, rule, epsilon, report);
+    countClosed(
+        closedPassages(gaps, field, rule, epsilon), [](const Vec3d&) { return true; }, report);
     return report;
 }
 
