@@ -136,8 +136,7 @@ constexpr ReportKey keyTable[] = {
     {"evolution.gaps.nearest", "", "Least distance from the decision, as a value of psi"},
     {"evolution.gaps.closed_by_field", "",
      "Number of passages and voids that a probe fits into and the field closes, so that the "
-     "surface "
-     "is closed there too; not with resolution"},
+     "surface is closed there too; not with resolution"},
     {"evolution.gaps.widest_closed", "Å", "Most room beside the probe in one of these"},
     {"evolution.walls", "",
      "Thin walls and necks decided by psi; null where gaps are, and on voxels above 0.75 Å or two "

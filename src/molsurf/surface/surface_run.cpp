@@ -68,7 +68,7 @@ void SurfaceRun::density()
     }
     GaussianSum::BumpsFor decided;
     if (auto rule = gapRuleOf(options_)) {
-        rule->countsClosed = atoms_.decays.empty();
+        rule->countsClosed = atoms_.decays.empty() && scope_.region.whole();
         decided = [this, rule](const SparseField& psi) {
             gaps_ = GapReport();
             DecidedGaps gaps;
@@ -298,7 +298,7 @@ void SurfaceRun::spline()
 /// are filled.
 void SurfaceRun::countClosedPassages()
 {
-    if (!passages_ || !scope_.region.whole()) return;
+    if (!passages_) return;
     SplineSampler sampler(spline_);
     const auto isClosed = [&](const openvdb::Vec3d& x) {
         const openvdb::Coord voxel = openvdb::Coord::round(x / spline_.voxelSize());
