@@ -34,7 +34,8 @@ std::string reasonOf(const std::exception& error)
 }
 
 /// Makes a tree of what the reader of MessagePack finds; it refuses what is nested deeper than any
-/// BinaryCIF file, for the reader calls itself for each level.
+/// BinaryCIF file, for the reader calls itself for each level, and what has more parts, for each
+/// takes far more memory than its byte.
 class TreeBuilder : public nlohmann::json_sax<json>
 {
 public:
@@ -67,6 +68,8 @@ public:
 private:
     json& put(json&& value)
     {
+        constexpr std::size_t most = 5000000; // 1A8O with 574 columns has 16,021
+        if (++parts_ == most) damaged("it has more parts than any such file");
         if (open_.empty()) return root = std::move(value);
         json& parent = *open_.back();
         if (parent.is_object()) return parent[key_] = std::move(value);
@@ -93,6 +96,7 @@ private:
 
     std::vector<json*> open_;
     std::string key_;
+    std::size_t parts_ = 0;
 };
 
 /// A column on its way from bytes to texts: one of the lists.

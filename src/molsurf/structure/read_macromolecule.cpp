@@ -611,6 +611,18 @@ bool isRead(const std::string& category)
 
 constexpr std::size_t rowsOfPiece = 20000; // which take 30 MB
 
+/// Refuses a line that no program writes: CIF 1.1 allows 2,048 characters. Its values would take 40
+/// times its memory.
+void checkLines(const std::string& text, const std::string& path)
+{
+    constexpr std::size_t longest = 1000000;
+    for (LineReader lines(text); lines.next();)
+        if (lines.line().size() > longest)
+            failAtLine(path, lines,
+                       "expected at most " + std::to_string(longest) + " characters, got " +
+                           std::to_string(lines.line().size()));
+}
+
 } // namespace
 
 double bytesForMmcif(const std::string& text)
@@ -629,6 +641,7 @@ Structure readMmcif(std::string text, const std::string& path, const Progress& p
 Structure readMmcifInPieces(std::string text, const std::string& path, const Progress& progress,
                             std::size_t enough)
 {
+    checkLines(text, path);
     const std::optional<CifRows> rows = findCifRows(text, enough);
     if (rows && rows->cuts.size() > 2) {
         try {

@@ -181,13 +181,22 @@ TEST(BinaryCif, RefusesToDecodeToMoreThanItsSizeCanHold)
     const json bomb = column("n", bytesOf<std::int32_t>({1, 2000000000}), {runs, byteArray(3)});
     EXPECT_HAS(decodeError(2000000000, bomb), "more than a file of its size");
     EXPECT_HAS(decodeError(1, bomb), "more than a file of its size");
-    const std::string deep = "\x81\xaa"
-                             "dataBlocks" +
-                             std::string(100000, '\x91');
-    EXPECT_HAS(
-        errorOf(ErrorKind::Input,
-                [&] { decodeBinaryCif(deep, "a.bcif", [](const std::string&) { return true; }); }),
-        "nested deeper");
+}
+
+/// A part of one byte takes sixteen and more as a tree, and a level one of the reader's own calls.
+TEST(BinaryCif, RefusesAFileOfTooManyParts)
+{
+    const auto errorOfBlocks = [](const std::string& blocks) {
+        const std::string bytes = "\x81\xaa"
+                                  "dataBlocks" +
+                                  blocks;
+        return errorOf(ErrorKind::Input, [&] {
+            decodeBinaryCif(bytes, "a.bcif", [](const std::string&) { return true; });
+        });
+    };
+    EXPECT_HAS(errorOfBlocks(std::string(100000, '\x91')), "nested deeper");
+    EXPECT_HAS(errorOfBlocks("\xdd\xff\xff\xff\xff" + std::string(5000001, '\xc0')),
+               "more parts than any such file");
 }
 
 TEST(BinaryCif, IsReadWholeOrNotAtAll)

@@ -529,6 +529,18 @@ TEST(ReadMmcif, TakesTheMemoryOfItsLongestPiece)
         "a.cif: reading it takes about");
 }
 
+/// A document of its values takes 40 times its memory.
+TEST(ReadMmcif, RefusesALineOfMoreThanAMillionCharacters)
+{
+    std::string ids, kept;
+    for (int i = 0; i < 500001; ++i) ids += "1 ";
+    const std::string atom = atomSite(full, "ATOM 1 C CA . ALA A 1 0 0 0 1 1 1 A 1\n");
+    kept = ids.substr(0, 1000000);
+    EXPECT_EQ(readMmcif(atom + "loop_\n_b.c\n" + kept + "\n").atoms.size(), 1u);
+    EXPECT_HAS(mmcifError(atom + "loop_\n_b.c\n" + ids + "\n"),
+               "expected at most 1000000 characters, got 1000002");
+}
+
 TEST(ReadMmcif, RefusesNamesThatStandTwice)
 {
     const std::string atom = atomSite(full, "ATOM 1 C CA . ALA A 1 0 0 0 1 1 1 A 1\n");
