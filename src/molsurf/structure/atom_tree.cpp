@@ -51,6 +51,16 @@ std::size_t countAtoms(const gemmi::Structure& structure)
     return atoms;
 }
 
+/// Whether a residue of a name begins again with the atom that it began with: no link of a chain,
+/// and no unknown ligand, whose atoms Open Babel names by their elements.
+bool mayRepeat(const std::string& name)
+{
+    if (name == "UNL") return false;
+    const NameClass kind = nameClass(name);
+    return kind != NameClass::AminoAcid && kind != NameClass::ModifiedAminoAcid &&
+           kind != NameClass::Nucleotide && kind != NameClass::ModifiedNucleotide;
+}
+
 } // namespace
 
 void TreeCopier::add(const gemmi::Structure& tree, bool goesOn)
@@ -80,19 +90,21 @@ void TreeCopier::add(const gemmi::Chain& chain, const gemmi::Residue& from)
     residue.insertionCode = from.seqid.icode;
     residue.hetatm = from.het_flag == 'H';
     if (entitiesKnown_) residue.entity = hintOf(from);
-    const auto residueIndex = static_cast<std::int32_t>(out_.residues.size());
-    out_.residues.push_back(std::move(residue));
+    const bool repeats = mayRepeat(from.name); // gemmi joins waters whose numbers come again
     const bool standard = isStandardResidue(from.name);
     const bool unknown = from.name == "UNX"; // whose atoms UNK are no uranium
     for (const gemmi::Atom& atom : from.atoms) {
+        const bool first = &atom == &from.atoms[0];
+        if (first || (repeats && atom.altloc == '\0' && atom.name == from.atoms[0].name))
+            out_.residues.push_back(residue);
         std::uint8_t element = elementOf(atom, standard);
         if (atom.element == gemmi::El::X && !unknown) {
             element = guessElement(atom.name, from.name);
             if (out_.models.size() == 1) ++out_.guessed;
         }
         out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
-                              residueIndex, element, atom.altloc, AtomRole::Atom, atom.occ,
-                              atom.b_iso, -1.0});
+                              std::int32_t(out_.residues.size()) - 1, element, atom.altloc,
+                              AtomRole::Atom, atom.occ, atom.b_iso, -1.0});
         out_.serials.push_back(atom.serial);
     }
 }
@@ -150,10 +162,7 @@ std::int32_t AtomTree::residueOf(const AtomLine& atom)
     residue.number = atom.number;
     residue.insertionCode = atom.insertionCode;
     residue.hetatm = atom.hetatm;
-    const NameClass kind = nameClass(atom.residue);
-    lastRepeats_ = kind != NameClass::AminoAcid && kind != NameClass::ModifiedAminoAcid &&
-                   kind != NameClass::Nucleotide && kind != NameClass::ModifiedNucleotide &&
-                   !atom.name.empty();
+    lastRepeats_ = mayRepeat(residue.name) && !atom.name.empty();
     out_.residues.push_back(std::move(residue));
     segments_.push_back(segment_);
     firsts_.push_back(std::int32_t(out_.atoms.size()));

@@ -418,6 +418,25 @@ TEST(ReadMmcif, LongChainsAreCutBetweenResidues)
                                           row("A", "GLY", 4)));
 }
 
+/// Numbers of waters begin anew behind 9999, in one chain.
+TEST(ReadMmcif, WatersWhoseNumbersComeAgain)
+{
+    std::string rows;
+    const auto add = [&](const char* name, const char* residue, int number) {
+        rows += std::string("HETATM 1 ") + name[0] + " " + name + " . " + residue +
+                " W . 1 2 3 1 0 " + std::to_string(number) + " W 1\n";
+    };
+    for (int n = 0; n < 5; ++n)
+        for (const char* name : {"O", "H1", "H2"}) add(name, "HOH", 9998 + n % 2);
+    for (int n = 0; n < 3; ++n) add("NA", "NA", 9998);
+    for (const char* name : {"C", "C", "O", "C"}) add(name, "UNL", 1);
+    expectSameInPieces(atomSite(full, rows));
+    Structure s = readMmcif(atomSite(full, rows));
+    ASSERT_EQ(s.residues.size(), 5u + 3u + 1u);
+    for (std::size_t r = 0; r < 5; ++r) EXPECT_TRUE(s.residues[r].water()) << r;
+    EXPECT_EQ(s.residues[8].name, "UNL") << "which Open Babel names by elements";
+}
+
 /// One atom of each of many models, of which the last may be one of an earlier model again.
 std::string manyModels(int count, int last)
 {

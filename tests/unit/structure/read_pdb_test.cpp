@@ -50,6 +50,18 @@ TEST(ReadPdb, ReadsAtomsAndResidues)
     EXPECT_EQ(s.residues[45].number, 46);
 }
 
+/// Open Babel names the atoms of a ligand by their elements.
+TEST(ReadPdb, AnUnknownLigandStaysOneResidue)
+{
+    const Structure s =
+        readPdb("HETATM    1  C   UNL     1       0.983   0.061   0.037  1.00  0.00           C\n"
+                "HETATM    2  C   UNL     1       2.503   0.061   0.037  1.00  0.00           C\n"
+                "HETATM    3  O   UNL     1       3.003   1.393   0.037  1.00  0.00           O\n"
+                "HETATM    4  C   UNL     1       4.423   1.393   0.037  1.00  0.00           C\n");
+    EXPECT_EQ(s.atoms.size(), 4u);
+    EXPECT_EQ(s.residues.size(), 1u);
+}
+
 TEST(ReadPdb, TellsWatersAndLigands)
 {
     const Structure s = readStructure(dataFile("1ubq.pdb"));
