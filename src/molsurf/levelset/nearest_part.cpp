@@ -122,8 +122,10 @@ MOLSURF_INLINE Reach reachOfCorners(const PartList& l, int i, const Seen& s, flo
 /// @param[out] certain  whether the foot lies on the arc
 MOLSURF_INLINE Reach reachOfArcs(const PartList& l, int i, const Seen& s, float room, Ints& certain)
 {
-    const Floats axis[3] = {column(l, AxisX, i), column(l, AxisY, i), column(l, AxisZ, i)};
-    const Floats mid[3] = {column(l, MiddleX, i), column(l, MiddleY, i), column(l, MiddleZ, i)};
+    alignas(32)
+        const Floats axis[3] = {column(l, AxisX, i), column(l, AxisY, i), column(l, AxisZ, i)};
+    alignas(32)
+        const Floats mid[3] = {column(l, MiddleX, i), column(l, MiddleY, i), column(l, MiddleZ, i)};
     const FromCircle at(s, axis, mid);
     const Floats off = at.aside - column(l, PartRadius, i);
     const Floats endCosine = column(l, EndCosine, i);

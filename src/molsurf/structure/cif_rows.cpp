@@ -143,6 +143,7 @@ public:
         }
         const bool otherChain = label != lastLabel_ && author != lastAuthor_;
         cut_ = otherModel || otherChain ? Cut::Chain : Cut::No;
+        beginsModel_ = otherModel;
         if (otherModel || author != lastAuthor_) last_ = lowest;
         endsSpan_ = label != lastLabel_ || otherModel;
         lastLabel_ = label;
@@ -156,6 +157,9 @@ public:
 
     /// Whether the label chain is another than that of the row before.
     bool endsSpan() const { return endsSpan_; }
+
+    /// Whether the model is another than that of the row before.
+    bool beginsModel() const { return beginsModel_; }
 
     /// The number of its residue, and the largest one before it in its chain.
     int number() const { return residue_; }
@@ -186,7 +190,7 @@ private:
     string_view lastLabel_, lastAuthor_, lastModel_;
     std::set<int> models_;
     Cut cut_ = Cut::No;
-    bool endsSpan_ = false;
+    bool endsSpan_ = false, beginsModel_ = false;
     int residue_ = lowest, last_ = lowest, before_ = lowest;
 };
 
@@ -196,8 +200,8 @@ class Pieces
 public:
     explicit Pieces(std::size_t rowsOfPiece) : enough_(rowsOfPiece) {}
 
-    /// Takes the row at a byte, which begins a piece if it may and the last one has enough rows. If
-    /// a residue comes again, the cuts since then go.
+    /// Takes the row at a place, which begins a piece if it may and the last one has enough rows or
+    /// models. If a residue comes again, the cuts since then go.
     void take(std::size_t at, const Cutter& row)
     {
         if (row.endsSpan()) {
@@ -211,10 +215,11 @@ public:
             begins_.pop_back();
         const std::size_t since = begins_.empty() ? enough_ : rows_ - begins_.back().row;
         const bool may = row.cut() == Cut::Chain || (row.cut() == Cut::Residue && residues_ > 1);
-        if (begins_.empty() || (may && since >= enough_)) {
+        models_ += row.beginsModel();
+        if (begins_.empty() || (may && (since >= enough_ || models_ >= enoughModels))) {
             begins_.push_back(
                 {at, rows_, row.number(), row.cut() == Cut::Chain ? unknown : row.last()});
-            residues_ = 0;
+            residues_ = models_ = 0;
         }
         residues_ += residues_ == 0 || row.number() != lastNumber_;
         lastNumber_ = row.number();
@@ -238,6 +243,7 @@ public:
 
 private:
     static constexpr int unknown = std::numeric_limits<int>::min();
+    static constexpr int enoughModels = 256; // gemmi looks through all models for each
     struct Begin {
         std::size_t at, row;
         int number; ///< of its residue
@@ -255,6 +261,7 @@ private:
     std::size_t enough_, rows_ = 0;
     int lastNumber_ = unknown;
     int residues_ = 0;      ///< of the present label chain in the present piece
+    int models_ = 0;        ///< that begin in the present piece behind its first row
     std::size_t chain_ = 0; ///< first of the begins within the chain
     std::vector<Begin> begins_;
 };
@@ -284,6 +291,24 @@ std::optional<CifRows> findCifRows(const std::string& text, std::size_t rowsOfPi
     pieces.finish(end, out);
     out.tags = std::move(loop->tags);
     return out;
+}
+
+std::vector<std::size_t> cutsOfRows(const gemmi::cif::Loop& loop, std::size_t rowsOfPiece)
+{
+    CifRows out;
+    Cutter cutter(loop.tags);
+    Pieces pieces(rowsOfPiece);
+    Fields fields(loop.width());
+    bool can = cutter.canCut() && loop.length() > 0;
+    for (std::size_t row = 0; can && row < loop.length(); ++row) {
+        std::copy_n(loop.values.begin() + std::ptrdiff_t(row * fields.size()), fields.size(),
+                    fields.begin());
+        can = cutter.take(fields);
+        if (can) pieces.take(row, cutter);
+    }
+    if (!can) return {0, loop.length()};
+    pieces.finish(loop.length(), out);
+    return out.cuts;
 }
 
 } // namespace molsurf

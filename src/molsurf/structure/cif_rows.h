@@ -5,6 +5,8 @@
 /// The rows of a table of atoms in an mmCIF text, piece by piece: a document of all of them takes
 /// over ten times the memory of the text.
 
+#include <gemmi/cifdoc.hpp>
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -28,5 +30,10 @@ struct CifRows {
 /// @return nothing where they are not one a line, or a model comes back, or chains are not given:
 ///         such a table is read as a whole
 std::optional<CifRows> findCifRows(const std::string& text, std::size_t rowsOfPiece);
+
+/// The numbers of rows of a loop _atom_site at which it may be cut in the same way, from 0 to that
+/// of all, without a cut where findCifRows() returns nothing: gemmi looks through the residues of a
+/// chain, and through the models, for each of them.
+std::vector<std::size_t> cutsOfRows(const gemmi::cif::Loop& loop, std::size_t rowsOfPiece);
 
 } // namespace molsurf

@@ -398,42 +398,17 @@ private:
     bool listed_ = false; ///< whether the chains are, or else the atoms name their entities
 };
 
-/// Rows at which a table of atoms may be cut so that each part has few models, from the first row
-/// to the end: gemmi looks through all models for each. No model goes on behind a cut.
-std::vector<std::size_t> cutsByModels(const gemmi::cif::Loop& loop)
-{
-    constexpr std::size_t enough = 256;
-    const int column = loop.find_tag("_atom_site.pdbx_PDB_model_num");
-    std::vector<std::size_t> cuts = {0}, begins;
-    std::vector<std::string> names;                    // of the model that begins there
-    std::unordered_map<std::string, std::size_t> last; // where a model begins the last time
-    const std::string* before = nullptr;
-    for (std::size_t row = 0; column >= 0 && row < loop.length(); ++row) {
-        const std::string& value = loop.values[row * loop.width() + std::size_t(column)];
-        if (before && value == *before) continue;
-        before = &value;
-        begins.push_back(row);
-        names.push_back(gemmi::cif::as_string(value));
-        last[names.back()] = begins.size() - 1;
-    }
-    for (std::size_t n = 0, first = 0, open = 0; n < begins.size(); ++n) {
-        if (n - first >= enough && open < n) {
-            cuts.push_back(begins[n]);
-            first = n;
-        }
-        open = std::max(open, last.at(names[n]));
-    }
-    cuts.push_back(loop.length());
-    return cuts;
-}
+constexpr std::size_t rowsOfPiece = 20000; // which take 30 MB
 
 /// Makes atoms of a block's rows, with what gemmi reads of it; the next rows are those of other
 /// chains.
 class AtomAdder
 {
 public:
-    AtomAdder(Block& block, const std::string& path, Structure& out)
-        : path_(path), entities_(block), copier_(out, block.has_tag("_entity.type")), out_(out)
+    /// @param[in] enough  rows of a part, at least
+    AtomAdder(Block& block, const std::string& path, std::size_t enough, Structure& out)
+        : path_(path), enough_(enough), entities_(block),
+          copier_(out, block.has_tag("_entity.type")), out_(out)
     {
     }
 
@@ -444,7 +419,7 @@ public:
         keepOnlyAtoms(block);
         gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
         const std::vector<std::size_t> cuts =
-            loop ? cutsByModels(*loop) : std::vector<std::size_t>();
+            loop ? cutsOfRows(*loop, enough_) : std::vector<std::size_t>();
         if (cuts.size() <= 2) {
             addTree(block, progress, goesOn_);
         } else {
@@ -459,7 +434,7 @@ public:
                                                    std::ptrdiff_t(row * loop->width()));
                 };
                 rows.values.assign(at(cuts[k]), at(cuts[k + 1]));
-                addTree(part, progress, goesOn_ && k == 0);
+                addTree(part, progress, goesOn_ || k > 0);
             }
         }
         goesOn_ = true;
@@ -475,6 +450,7 @@ private:
     }
 
     const std::string& path_;
+    std::size_t enough_;
     EntityTypes entities_;
     TreeCopier copier_;
     Structure& out_;
@@ -488,7 +464,7 @@ void addPieces(Block& block, const std::string& text, const CifRows& rows, const
 {
     std::string head = "data_piece\nloop_\n";
     for (const std::string& tag : rows.tags) head += tag + "\n";
-    AtomAdder atoms(block, path, out);
+    AtomAdder atoms(block, path, rows.longest, out);
     keepOnlyAtoms(block);
     gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
     if (!loop || loop->length() != 1)
@@ -572,13 +548,13 @@ Structure readInPieces(const std::string& text, const CifRows& rows, const std::
 /// The structure of a document that is parsed from text or bytes.
 template<typename Parse>
 Structure readDocument(std::string all, const std::string& path, const Progress& progress,
-                       const Parse& parse)
+                       std::size_t enough, const Parse& parse)
 {
     try {
         gemmi::cif::Document document = parse(all);
         std::string().swap(all);
         return structureOf(document, path, progress, [&](Block& block, Structure& out) {
-            AtomAdder(block, path, out).add(block, progress);
+            AtomAdder(block, path, enough, out).add(block, progress);
         });
     } catch (const Error&) {
         throw;
@@ -608,8 +584,6 @@ bool isRead(const std::string& category)
     return std::any_of(read.begin(), read.end(),
                        [&](const char* name) { return gemmi::iequal(category, name); });
 }
-
-constexpr std::size_t rowsOfPiece = 20000; // which take 30 MB
 
 /// Refuses a line that no program writes: CIF 1.1 allows 2,048 characters. Its values would take 40
 /// times its memory.
@@ -651,13 +625,13 @@ Structure readMmcifInPieces(std::string text, const std::string& path, const Pro
         } catch (const std::exception&) { // read as a whole it gives the line
         }
     }
-    return readDocument(std::move(text), path, progress,
+    return readDocument(std::move(text), path, progress, enough,
                         [&](const std::string& all) { return parseCif(all, path); });
 }
 
 Structure readBinaryCif(std::string bytes, const std::string& path, const Progress& progress)
 {
-    return readDocument(std::move(bytes), path, progress,
+    return readDocument(std::move(bytes), path, progress, rowsOfPiece,
                         [&](const std::string& all) { return decodeBinaryCif(all, path, isRead); });
 }
 
