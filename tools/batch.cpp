@@ -8,9 +8,9 @@
 #include "outputs.h"
 #include "terminal.h"
 
-#include "molsurf/core/may_pass.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/io/made_folders.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/structure/structure_list.h"
 
@@ -173,11 +173,8 @@ int batch(Call call)
             failIfStream(file.path, "a file, which each structure needs again");
     call.identity = identityOf(call); // of all
     const std::vector<Task> tasks = tasksOf(call);
-    std::error_code problem;
-    fs::create_directories(call.folder, problem);
-    if (problem)
-        throw Error(ErrorKind::Output, "cannot make " + call.folder + ": " + problem.message(),
-                    mayPass(problem.value()));
+    MadeFolders folders;
+    folders.make(call.folder);
     for (const std::string& path : BatchJournal::paths(call.folder)) checkWritable(path, true);
     BatchJournal journal(call.folder, {MOLSURF_VERSION, optionsLine(call), {}, call.identity},
                          call.force);
