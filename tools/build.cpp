@@ -97,6 +97,8 @@ RunLimits limitsOf(const Call& call, const BallSet& atoms)
     if (call.showsPockets && call.writes(Pixels))
         limits.besides.bytes +=
             std::size_t(shareOfBodies * double(costOfPockets(atoms, call.options).bytes));
+    if (call.writes(Volume))
+        limits.besides.seconds += costOfMap(atoms.balls, call.options.voxel).seconds;
     return limits;
 }
 

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import subprocess
 import tarfile
 import time
@@ -257,6 +258,17 @@ class Limits(ToolTest):
         peak = json.loads((self.folder / "a.json").read_text())["peak_memory_bytes"]
         self.assertTrue(0.7 < size_of(said) / peak < 1.5, (said, peak))
         self.check(1, *words, "--force", "--max-hours", "1e-4", says="hours")
+
+    def test_a_dry_run_knows_of_maps(self):
+        """They have all points of the box: 1e9 of two atoms."""
+        (self.folder / "far.xyzr").write_text("0 0 0 1.7\n1000 1000 1000 1.7\n")
+        seconds = {}
+        for name in ("a.vdb", "a.mrc"):
+            said = self.check(0, "far.xyzr", "--voxel", "1", "-o", name, "--dry-run").stderr.decode()
+            seconds[name] = float(re.search(r"(\S+) s on one core", said)[1])
+        self.assertLess(seconds["a.vdb"], 1)
+        self.assertTrue(50 < seconds["a.mrc"] < 100, seconds)
+        self.refuse("far.xyzr", "--voxel", "1", "-o", "a.mrc", "--max-hours", "0.001", says=["hours", "--max-hours"])
 
     def test_compare_says_what_it_takes(self):
         """Of both surfaces at once."""

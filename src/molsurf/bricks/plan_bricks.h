@@ -58,6 +58,9 @@ PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b);
 /// @param[in] isLayered  whether what is behind the nearest wall is seen, too
 PlannedBrick costOfPicture(std::size_t voxels, int width, bool isLayered);
 
+/// Cost of writing the level set on all points of the box of balls, which are written one by one.
+PlannedBrick costOfMap(const std::vector<Ball>& balls, double voxel);
+
 /// Cost of finding the pockets of a surface, if its options ask for them. The memory is that of the
 /// process, in the place of what the surface takes.
 PlannedBrick costOfPockets(const BallSet& atoms, const SurfaceOptions& options);
