@@ -99,6 +99,13 @@ RunLimits limitsOf(const Call& call, const BallSet& atoms)
             std::size_t(shareOfBodies * double(costOfPockets(atoms, call.options).bytes));
     if (call.writes(Volume))
         limits.besides.seconds += costOfMap(atoms.balls, call.options.voxel).seconds;
+    const SurfaceOptions& options = call.options;
+    if (options.ballAreas || options.contacts || options.interfaces) {
+        const PlannedBrick areas = costOfAreas(atoms.balls.size(), options.interfaces);
+        limits.besides.bytes += areas.bytes;
+        limits.besides.seconds += areas.seconds;
+    }
+    if (!options.grid) limits.hint = " [hint: fewer atoms by `select`";
     return limits;
 }
 
@@ -239,11 +246,14 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
                  const Companions& companions)
 {
     stopIfAsked();
-    if (call.options.grid) {
-        const double seconds = checkCost(balls, call.options, limitsOf(call, balls), terminal);
-        constexpr double any = std::numeric_limits<double>::infinity();
+    const RunLimits limits = limitsOf(call, balls);
+    constexpr double any = std::numeric_limits<double>::infinity();
+    if (!call.options.grid) {
+        checkCost(PlannedBrick(), limits);
+        terminal.limitTo(any, call.hours);
+    } else {
+        const double seconds = checkCost(balls, call.options, limits, terminal);
         terminal.limitTo(isEstimated(call.options) ? seconds : any, call.hours);
-        const RunLimits limits = limitsOf(call, balls);
         terminal.expect(stagesOf(call.options, limits.besides.seconds / (seconds + 1e-9)),
                         seconds / limits.threads);
     }
@@ -373,7 +383,7 @@ int build(const Call& asked, Clock::time_point start)
         if (!call.quiet) say("done before");
         return *status;
     }
-    if (call.options.grid && (call.memory > 0 || call.dryRun)) return buildInBricks(call, start);
+    if (call.dryRun || (call.options.grid && call.memory > 0)) return buildInBricks(call, start);
     call.panelSurfaces = std::make_shared<std::vector<PanelSurface>>();
     const int status = endOf(buildSurface(call, start), moreSteps(call));
     return std::max(status, endOf(*call.panelSurfaces));

@@ -125,7 +125,8 @@ int buildInBricks(Call call, Clock::time_point start)
                                           sizeText(double(call.memory)) + " [hint: --memory " +
                                           std::to_string(reading / 1000000 * 12 / 10) + "M]");
     if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, availableMemory());
-    BrickPlan one = planWhole(atoms, call.options, terminal);
+    BrickPlan one =
+        call.options.grid ? planWhole(atoms, call.options, terminal) : planWithoutGrid(atoms);
     RunLimits limits = limitsOf(call, atoms);
     limits.memory = std::numeric_limits<std::size_t>::max(); // bricks take less
     if (!call.dryRun) checkCost(one.bricks[0], limits);

@@ -4,6 +4,7 @@
 import gzip
 import json
 import math
+import re
 import shutil
 import subprocess
 import unittest
@@ -304,6 +305,17 @@ class Areas(ToolTest):
         self.check(0, DATA / "1a8o.cif.gz", *words, "--assembly", "1", "--instances", "-o", "c.json")
         self.assertTrue(self.report("c.json")["surface"]["closed"])
 
+    def test_a_dry_run_knows_of_tables(self):
+        """They need no grid, but atoms."""
+        said = {}
+        for name in ("a.atoms.csv", "a.interfaces.csv"):
+            said[name] = self.check(0, DATA / "4at1.ent.gz", "-o", name, "--dry-run").stderr.decode()
+            self.assertIn("about 0 voxels", said[name])
+        seconds = [float(re.search(r"(\S+) s on one core", text)[1]) for text in said.values()]
+        self.assertGreater(seconds[1], 4 * seconds[0])
+        self.assertEqual(self.names(), [])
+        self.check(1, DATA / "4at1.ent.gz", "-o", "a.interfaces.csv", "--max-hours", "1e-4", says="hours on")
+
     def test_wrong_calls(self):
         for words, says in (
                 (["--areas", "atom"], ["expected some of atoms, residues, contacts, interfaces", "did you mean atoms"]),
@@ -313,7 +325,6 @@ class Areas(ToolTest):
                 (["-o", "a.atoms.csv", "--memory", "1G", "--surface", "gaussian"], "--memory together"),
                 (["-o", "a.atoms.csv", "--instances", "--assembly", "1"], "--instances together"),
                 (["-o", "a.contacts.csv", "--by-symmetry", "--assembly", "1", *SAS], "--by-symmetry together"),
-                (["-o", "a.pdb", "--dry-run", *SAS], ["(-o a.pdb) and --dry-run together", "[hint: "]),
                 (["-o", "a.residues.json"], ["no residues as .json", "[hint: -o FILE.residues.csv"]),
                 (["-o", "a.table.csv"], ["-o a.table.csv: expected --frames", "[hint: -o FILE.residues.csv"])):
             self.check(2, CRAMBIN, *words, *([] if "-o" in words else ["-o", "a.json"]), says=says)

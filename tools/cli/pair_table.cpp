@@ -106,7 +106,6 @@ std::vector<Pair> areaPairs()
             areasWithout("surface-of", " [hint: a run without --surface-of]"),
             areasWithout("instances", " [hint: --by-symmetry has those of a unit in the whole]"),
             memory,
-            areasWithout("dry-run", " [hint: --dry-run -o FILE.vdb]"),
             unit,
             {"surface=gaussian", Excludes, forces, " [hint: --surface smooth-sas]"},
             {"surface=variational", Excludes, forces,

@@ -73,6 +73,10 @@ constexpr double bytesOfPocketsPerBall = 3.9e3, secondsOfPocketsPerBall = 1e-4; 
 constexpr double morePerProbeOut = 0.12, morePerProbeOut2 = 4e-3; // of both, for each Å above 4
 // measured: -o FILE.dx of two molecules 1e6 Å apart on voxels of 3 Å; .mrc takes a fifth.
 constexpr double secondsPerMapPoint = 7e-8;
+// measured: build --surface ses -o NAME.atoms.csv, or .interfaces.csv, of 4HHB, 1AOI, 4V5A, which
+// takes a quarter to all of it.
+constexpr double bytesPerArea = 5e3, secondsPerArea = 0.15e-3;
+constexpr double bytesPerFit = 12e3, secondsPerFit = 1.1e-3; // more, where pairs are measured
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
@@ -698,6 +702,24 @@ PlannedBrick costOfMap(const std::vector<Ball>& balls, double voxel)
     PlannedBrick cost;
     if (!box.empty()) cost.seconds = secondsPerMapPoint * (box.extents() / voxel + 1.0).product();
     return cost;
+}
+
+PlannedBrick costOfAreas(std::size_t balls, bool ofPairs)
+{
+    PlannedBrick cost;
+    cost.bytes = std::size_t((bytesPerArea + (ofPairs ? bytesPerFit : 0.0)) * double(balls));
+    cost.seconds = (secondsPerArea + (ofPairs ? secondsPerFit : 0.0)) * double(balls);
+    return cost;
+}
+
+BrickPlan planWithoutGrid(const BallSet& atoms)
+{
+    BrickPlan plan;
+    plan.atoms = atoms.balls.size();
+    plan.bricks.resize(1);
+    plan.bricks[0].bytes = std::size_t(processBytes);
+    plan.bricks[0].seconds = secondsOfStart;
+    return plan;
 }
 
 PlannedBrick costOfPockets(const BallSet& atoms, const SurfaceOptions& options)

@@ -107,21 +107,18 @@ struct Side {
 Side sideOf(const BallBoundary& boundary, const BallIndex& other, const Progress& progress)
 {
     const ExcludedPoints all = excludedPoints(boundary, fitProbe, density, progress);
-    const auto chosen = [&](const ExcludedPoints& from, const auto& isWanted) {
-        return parallelCollect<ExcludedPoint>(from.size(), progress,
-                                              [&](std::size_t i, ExcludedPoints& out) {
-                                                  if (isWanted(from[i])) out.push_back(from[i]);
-                                              });
-    };
-    const ExcludedPoints buried =
-        chosen(all, [&](const ExcludedPoint& p) { return isBlocked(p, other); });
-    const ExcludedPoints open =
-        chosen(all, [&](const ExcludedPoint& p) { return !isBlocked(p, other); });
+    std::vector<char> blocked(all.size());
+    parallelFor(all.size(), progress,
+                [&](std::size_t i) { blocked[i] = isBlocked(all[i], other) ? 1 : 0; });
+    ExcludedPoints buried, open;
+    for (std::size_t i = 0; i < all.size(); ++i) (blocked[i] ? buried : open).push_back(all[i]);
     const PointIndex rim(open);
     Side side;
     for (const ExcludedPoint& p : buried) side.buriedArea += p.area;
-    side.trimmed = chosen(
-        buried, [&](const ExcludedPoint& p) { return !rim.anyWithin(p.position, rimWidth); });
+    side.trimmed = parallelCollect<ExcludedPoint>(
+        buried.size(), progress, [&](std::size_t i, ExcludedPoints& out) {
+            if (!rim.anyWithin(buried[i].position, rimWidth)) out.push_back(buried[i]);
+        });
     return side;
 }
 
