@@ -259,6 +259,15 @@ class Limits(ToolTest):
         self.assertTrue(0.7 < size_of(said) / peak < 1.5, (said, peak))
         self.check(1, *words, "--force", "--max-hours", "1e-4", says="hours")
 
+    def test_a_dry_run_knows_of_steps(self):
+        """Those of the paper do not end before the last one that is allowed."""
+        def seconds(*words):
+            said = self.check(0, CRAMBIN, *words, "--dry-run").stderr.decode()
+            return float(re.search(r"(\S+) s on one core", said)[1])
+        paper = seconds("--flow", "paper")
+        self.assertGreater(paper, 10 * seconds())
+        self.assertGreater(paper, 5 * seconds("--flow", "paper", "--steps", "20"))
+
     def test_a_dry_run_knows_of_maps(self):
         """They have all points of the box: 1e9 of two atoms."""
         (self.folder / "far.xyzr").write_text("0 0 0 1.7\n1000 1000 1000 1.7\n")

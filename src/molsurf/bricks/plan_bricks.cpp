@@ -53,6 +53,8 @@ constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with 
 // 1.2 times what was measured.
 constexpr double secondsPerLeaf = 0.09e-3, secondsPerFlowLeaf = 0.11e-3;
 constexpr double timesOfFronts = 3.5; // of the flow, where fronts move far: 2.5, seldom 6
+// measured: build --flow paper of 1CRN, 1UBQ, 4HHB at 0.5 and 1 Å: 0.08 to 0.14.
+constexpr double timesPerPaperStep = 0.12; // of the flow
 constexpr double secondsPerBoundaryBall = 15e-6;
 // Of surfaces that are stored, 1UBQ to 4V5A at 0.2 to 1 Å: the seconds are 0.6 to 1.6 times what
 // was measured, the memory 0.9 to 1.4 times.
@@ -286,7 +288,10 @@ double secondsOfFlow(const SurfaceOptions& options, double leaves)
 {
     const EvolveOptions& flow = options.evolution;
     const bool fronts = hasFlow(options.kind) && makesNewtonSteps(flow) && !decidesGaps(flow);
-    return (fronts ? timesOfFronts : 1.0) * secondsPerFlowLeaf * leaves;
+    double times = fronts ? timesOfFronts : 1.0;
+    if (hasFlow(options.kind) && flow.flow == Flow::Paper)
+        times += timesPerPaperStep * flow.steps.value_or(flow.maxSteps.value_or(defaultPaperSteps));
+    return times * secondsPerFlowLeaf * leaves;
 }
 
 /// Whether bricks start from the rest of the whole on coarser voxels.
