@@ -2,6 +2,7 @@
 #include "molsurf/surface/surface_run.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/initial_surface.h"
 #include "molsurf/flow/interface_energy.h"
@@ -466,6 +467,13 @@ void SurfaceRun::integrateCurvature()
     const IntegratedSurface integrated =
         integrateSurface(mesh, spline_, tolerance * chi, progress_);
     surface.integrals = integrated.sums;
+    const double turns = integrated.sums.gaussianCurvature / (2.0 * M_PI);
+    if (std::abs(turns - surface.meshEulerCharacteristic) > 0.5)
+        result_.report.warnings.push_back(formatted(
+            "total_gaussian_curvature: expected 2 pi times the Euler number of the mesh, "
+            "%d, got %.4g times: the totals of curvature are not right at creases or gaps "
+            "below a voxel",
+            surface.meshEulerCharacteristic, turns));
 
     const std::vector<float> areas = vertexAreas(mesh, progress_);
     const auto average = [&](const std::vector<double>& integrals) {

@@ -150,5 +150,25 @@ TEST(CurvatureReport, GaussBonnetOnAProtein)
     }
 }
 
+/// On voxels of 0.6 Å the accessible surface of crambin loses a sphere's worth in its creases.
+TEST(CurvatureReport, WarnsWhereGaussBonnetFails)
+{
+    SurfaceOptions options;
+    options.voxel = 0.6;
+    options.curvatureTotals = true;
+    const auto warnings = [&](SurfaceKind kind) {
+        options.kind = kind;
+        std::string out;
+        for (const std::string& text :
+             test::runOn(test::balls("1crn.pdb"), options).report.warnings)
+            if (text.find("total_gaussian_curvature") == 0) out += text;
+        return out;
+    };
+    EXPECT_EQ(warnings(SurfaceKind::Variational), "");
+    EXPECT_NE(
+        warnings(SurfaceKind::SolventAccessible).find("Euler number of the mesh, 4, got 1.999"),
+        std::string::npos);
+}
+
 } // namespace
 } // namespace molsurf
