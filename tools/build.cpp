@@ -97,8 +97,7 @@ RunLimits limitsOf(const Call& call, const BallSet& atoms)
     if (call.showsPockets && call.writes(Pixels))
         limits.besides.bytes +=
             std::size_t(shareOfBodies * double(costOfPockets(atoms, call.options).bytes));
-    if (call.writes(Volume))
-        limits.besides.seconds += costOfMap(atoms.balls, call.options.voxel).seconds;
+    if (call.writes(Volume)) limits.besides.seconds += costOfMap(atoms, call.options).seconds;
     const SurfaceOptions& options = call.options;
     if (options.ballAreas || options.contacts || options.interfaces) {
         const PlannedBrick areas = costOfAreas(atoms.balls.size(), options.interfaces);

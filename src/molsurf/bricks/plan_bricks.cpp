@@ -697,15 +697,17 @@ PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b)
     return cost;
 }
 
-PlannedBrick costOfMap(const std::vector<Ball>& balls, double voxel)
+PlannedBrick costOfMap(const BallSet& atoms, const SurfaceOptions& options)
 {
+    const double reach = Influence(atoms, options).ofLabel();
     openvdb::BBoxd box;
-    for (const Ball& ball : balls) {
-        box.expand(openvdb::Vec3d(ball.center) - ball.radius);
-        box.expand(openvdb::Vec3d(ball.center) + ball.radius);
+    for (const Ball& ball : atoms.balls) {
+        box.expand(Vec3d(ball.center) - ball.radius - reach);
+        box.expand(Vec3d(ball.center) + ball.radius + reach);
     }
     PlannedBrick cost;
-    if (!box.empty()) cost.seconds = secondsPerMapPoint * (box.extents() / voxel + 1.0).product();
+    if (!box.empty())
+        cost.seconds = secondsPerMapPoint * (box.extents() / options.voxel + 1.0).product();
     return cost;
 }
 

@@ -58,8 +58,8 @@ PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b);
 /// @param[in] isLayered  whether what is behind the nearest wall is seen, too
 PlannedBrick costOfPicture(std::size_t voxels, int width, bool isLayered);
 
-/// Cost of writing the level set on all points of the box of balls, which are written one by one.
-PlannedBrick costOfMap(const std::vector<Ball>& balls, double voxel);
+/// Cost of writing the level set on all points of its box, one by one.
+PlannedBrick costOfMap(const BallSet& atoms, const SurfaceOptions& options);
 
 /// Cost of the areas of so many balls in closed form, beside that of a surface.
 /// @param[in] ofPairs  whether the fit of groups to each other is measured, too
