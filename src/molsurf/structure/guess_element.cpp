@@ -180,6 +180,9 @@ std::uint8_t elementOfForceFieldType(string_view type)
 
 std::uint8_t elementOfAutoDockType(string_view type)
 {
+    const bool symbol = type.size() == 2 && isCapital(type[0]) && !isCapital(type[1]);
+    const std::uint8_t ofSymbol = symbol ? elementNumber(std::string(type)) : 0;
+    if (ofSymbol != 0) return ofSymbol; // "Na" is no acceptor
     std::string capitals;
     for (const char c : type) capitals += char(std::toupper(static_cast<unsigned char>(c)));
     struct Type {

@@ -38,8 +38,8 @@ std::uint8_t guessElement(const std::string& atomName, const std::string& residu
 /// "ca" is carbon, "os" oxygen, "cl" chlorine. 0: it is none of them.
 std::uint8_t elementOfForceFieldType(std::string_view type);
 
-/// The element of a type of AutoDock: "A" is carbon, "OA" oxygen, "HD" hydrogen; 0 if there is
-/// none.
+/// The element of a type of AutoDock: "A" is carbon, "OA" oxygen, "HD" hydrogen, "NA" nitrogen, but
+/// "Na" sodium; 0 if there is none.
 std::uint8_t elementOfAutoDockType(std::string_view type);
 
 /// True for what files write in the place of an element of a particle that is no atom: "EP", "VS",

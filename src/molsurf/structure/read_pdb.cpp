@@ -226,9 +226,7 @@ private:
         atom.chain = four ? columns(line, 21, 1) : columns(line, 20, 2);
         atom.residue = columns(line, 17, four ? 4 : 3);
         atom.name = columns(line, 12, 4);
-        atom.segment = columns(line, 72, 4);
-        const bool old = elementIn(line).empty() && !columns(line, 76, 4).empty();
-        if (old) atom.segment = {}; // the name of the entry, before 1992
+        atom.segment = segment(line);
         atom.number = residueNumber(columns(line, 22, 4));
         parseInteger(columns(line, 6, 5), atom.serial);
         atom.insertionCode = column(line, 26);
@@ -246,6 +244,14 @@ private:
             end->second = {std::string(atom.chain), atom.number, atom.insertionCode,
                            std::string(atom.name)};
         tree_.add(atom);
+    }
+
+    /// Columns 73-76, but for those of AutoDock, which are of the charge, and for the name of the
+    /// entry, before 1992.
+    string_view segment(string_view line) const
+    {
+        const bool old = elementIn(line).empty() && !columns(line, 76, 4).empty();
+        return autoDock_ || old ? string_view() : columns(line, 72, 4);
     }
 
     openvdb::Vec3d position(const LineReader& lines) const
@@ -287,6 +293,8 @@ private:
     {
         const string_view type = columns(line, 77, 4);
         atom.element = elementOfAutoDockType(type);
+        const std::uint8_t ion = ionElement(atom.residue);
+        if (ion != 0 && ion == elementNumber(std::string(type))) atom.element = ion; // NA of NA
         if (isAutoDockParticle(type)) {
             atom.element = 0;
             atom.role = AtomRole::Particle;

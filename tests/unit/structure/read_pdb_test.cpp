@@ -338,6 +338,23 @@ TEST(ReadPdbqt, TypesTellElementsAndChargesAreRead)
     EXPECT_FLOAT_EQ(s.charges[0], -0.25f);
 }
 
+TEST(ReadPdbqt, ChargesAreNoSegmentsAndSodiumIsNoAcceptor)
+{
+    const auto line = [](const std::string& residue, const char* charge, const char* type) {
+        return "ATOM      1  NA  " + residue +
+               " A   1       0.000   0.000   0.000  1.00  0.00    " + charge + " " + type + "\n";
+    };
+    const Structure s = readPdb(line("LIG", "-0.450", "NA") + line("LIG", " 0.120", "N ") +
+                                    line(" NA", " 1.000", "Na") + line(" NA", " 0.000", "NA"),
+                                "a.pdbqt");
+    ASSERT_EQ(s.atoms.size(), 4u);
+    EXPECT_EQ(s.residues.size(), 3u); // the ligand and two ions
+    EXPECT_EQ(s.atoms[0].element, 7);
+    EXPECT_EQ(s.atoms[2].element, 11);
+    EXPECT_EQ(s.atoms[3].element, 11);
+    EXPECT_FLOAT_EQ(s.charges[0], -0.45f);
+}
+
 TEST(ReadPdb, ReadsAssembly)
 {
     const Structure s = readStructure(dataFile("1a8o.pdb.gz"));
