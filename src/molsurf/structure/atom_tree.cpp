@@ -13,20 +13,8 @@ namespace molsurf
 namespace
 {
 
-/// Atomic number; corrects an alpha carbon whose element is given as calcium.
-std::uint8_t elementOf(const gemmi::Atom& atom, bool standardResidue)
-{
-    const int number = atom.element.atomic_number();
-    const bool usual = number == 1 || number == 6 || number == 7 || number == 8 || number == 15 ||
-                       number == 16 || number == 34;
-    if (usual || !standardResidue) return static_cast<std::uint8_t>(number);
-    for (const char c : atom.name) {
-        if (std::isalpha(static_cast<unsigned char>(c))) {
-            return elementNumber(std::string(1, c));
-        }
-    }
-    return static_cast<std::uint8_t>(number);
-}
+/// The residue of atoms that the Protein Data Bank cannot tell: their name UNK is no uranium.
+constexpr std::string_view unknownAtoms = "UNX";
 
 EntityHint hintOf(const gemmi::Residue& residue)
 {
@@ -91,14 +79,13 @@ void TreeCopier::add(const gemmi::Chain& chain, const gemmi::Residue& from)
     residue.hetatm = from.het_flag == 'H';
     if (entitiesKnown_) residue.entity = hintOf(from);
     const bool repeats = mayRepeat(from.name); // gemmi joins waters whose numbers come again
-    const bool standard = isStandardResidue(from.name);
-    const bool unknown = from.name == "UNX"; // whose atoms UNK are no uranium
     for (const gemmi::Atom& atom : from.atoms) {
         const bool first = &atom == &from.atoms[0];
         if (first || (repeats && atom.altloc == '\0' && atom.name == from.atoms[0].name))
             out_.residues.push_back(residue);
-        std::uint8_t element = elementOf(atom, standard);
-        if (atom.element == gemmi::El::X && !unknown) {
+        auto element = std::uint8_t(atom.element.atomic_number());
+        if (isMisread(element, atom.name, from.name)) element = 0;
+        if (element == 0 && from.name != unknownAtoms) {
             element = guessElement(atom.name, from.name);
             if (out_.models.size() == 1) ++out_.guessed;
         }
@@ -171,7 +158,8 @@ std::int32_t AtomTree::residueOf(const AtomLine& atom)
 
 std::uint8_t AtomTree::elementOf(const AtomLine& atom)
 {
-    if (atom.element != 0 || !atom.guess || atom.role != AtomRole::Atom)
+    if (atom.element != 0 || !atom.guess || atom.role != AtomRole::Atom ||
+        atom.residue == unknownAtoms)
         return std::uint8_t(atom.element);
     if (out_.models.size() == 1) ++out_.guessed;
     std::string key(atom.residue);

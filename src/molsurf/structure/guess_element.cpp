@@ -154,6 +154,15 @@ std::uint8_t guessElement(const std::string& atomName, const std::string& residu
     return guessElement(ElementEvidence{atomName, residueName});
 }
 
+bool isMisread(std::uint8_t element, string_view atom, string_view residue)
+{
+    const string_view symbol = elementSymbol(element);
+    if (symbol.size() != 2 || element == elementNumber("Se") || isPlainSymbol(symbol)) return false;
+    const string_view two = lettersOf(atom).substr(0, 2);
+    return isStandardResidue(residue) && elementNumber(std::string(two)) == element &&
+           ofPolymer(two) != 0;
+}
+
 std::uint8_t elementOfForceFieldType(string_view type)
 {
     if (type.empty() || !isLetter(type[0])) return 0;

@@ -34,6 +34,9 @@ std::uint8_t guessElement(const ElementEvidence& evidence);
 /// The same of the names alone.
 std::uint8_t guessElement(const std::string& atomName, const std::string& residueName);
 
+/// Whether the element that a file gives an atom cannot be: an alpha carbon is no calcium.
+bool isMisread(std::uint8_t element, std::string_view atom, std::string_view residue);
+
 /// The element of a type of atoms in a .mol2 file, if it is one of GAFF, Amber or CHARMM's CGenFF:
 /// "ca" is carbon, "os" oxygen, "cl" chlorine. 0: it is none of them.
 std::uint8_t elementOfForceFieldType(std::string_view type);

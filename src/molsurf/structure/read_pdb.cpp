@@ -280,13 +280,8 @@ private:
             layout_.placedNames && isLetter(column(line, 12)) && atom.name.size() < 4;
         if (symbol.empty()) return;
         atom.element = elementNumber(std::string(symbol));
-        atom.guess = symbol != "X"; // as the Protein Data Bank calls an unknown element
         if (atom.element == 0 && isParticleSymbol(symbol)) atom.role = AtomRole::Particle;
-        constexpr int usual[] = {0, 1, 6, 7, 8, 15, 16, 34};
-        const bool odd =
-            std::find(std::begin(usual), std::end(usual), atom.element) == std::end(usual);
-        if (odd && isStandardResidue(atom.residue))
-            atom.element = 0; // an alpha carbon is no calcium
+        if (isMisread(std::uint8_t(atom.element), atom.name, atom.residue)) atom.element = 0;
     }
 
     void autoDockType(string_view line, AtomLine& atom)
