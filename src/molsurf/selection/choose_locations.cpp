@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -70,11 +71,11 @@ struct Site {
     std::map<std::string, std::map<char, std::size_t>> byName; ///< positions of atoms with a label
 };
 
-Site siteOf(const Structure& structure, const Indices& atoms, std::size_t begin, std::size_t end)
+Site siteOf(const Structure& structure, const Indices& atoms)
 {
     Site site;
-    for (std::size_t i = begin; i < end; ++i) {
-        const Atom& atom = atomAt(structure, atoms[i]);
+    for (const auto i : atoms) {
+        const Atom& atom = atomAt(structure, i);
         if (atom.altloc == '\0') continue;
         addTo(site.labels, atom.altloc, atom.occupancy);
         addTo(site.residues, atom.residue, atom.occupancy);
@@ -106,16 +107,16 @@ Rivals rivalsIn(const Site& site)
     return out;
 }
 
-/// Marks the atoms [begin, end) of one site that are kept. Where the readings have different atoms,
-/// one of them is kept as a whole, or atoms of one would lie beside those of another.
-void chooseInResidue(const Structure& structure, const Indices& atoms, std::size_t begin,
-                     std::size_t end, std::vector<char>& keep)
+/// The marks of the atoms of one site that are kept. Where the readings have different atoms, one
+/// of them is kept as a whole, or atoms of one would lie beside those of another.
+std::vector<char> chooseInResidue(const Structure& structure, const Indices& atoms)
 {
-    Site site = siteOf(structure, atoms, begin, end);
+    std::vector<char> keep(atoms.size(), 0);
+    Site site = siteOf(structure, atoms);
     const auto labelRank = ranked(site.labels);
     const auto residueRank = ranked(site.residues);
     char first = '\0'; // label of the best rank in the residue that is kept
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
         const Atom& atom = atomAt(structure, atoms[i]);
         keep[i] = atom.altloc == '\0';
         if (keep[i] || residueRank.at(atom.residue) != 0) continue;
@@ -133,24 +134,59 @@ void chooseInResidue(const Structure& structure, const Indices& atoms, std::size
         const auto best = std::min_element(locations.begin(), locations.end(), better);
         keep[best->second] = !rivals.different || rivals.pairs.count({first, best->first}) == 0;
     }
+    return keep;
+}
+
+/// For each atom the number of its site: of its residue and those next to it that have its number
+/// and other names, which are its alternatives.
+std::vector<std::int32_t> sitesOf(const Structure& structure, const Indices& atoms)
+{
+    std::vector<std::int32_t> out, ofResidue(structure.residues.size(), -1);
+    out.reserve(atoms.size());
+    std::int32_t site = -1;
+    const Residue* first = nullptr; // of the site
+    std::set<std::string> names;    // of its residues
+    for (const auto i : atoms) {
+        const Atom& atom = atomAt(structure, i);
+        std::int32_t& known = ofResidue[std::size_t(atom.residue)];
+        if (known < 0) {
+            const Residue& residue = residueOf(structure, atom);
+            const bool other = first && isSameSite(*first, residue) && !names.count(residue.name);
+            if (!other) {
+                ++site;
+                first = &residue;
+                names.clear();
+            }
+            names.insert(residue.name);
+            known = site;
+        }
+        out.push_back(known);
+    }
+    return out;
 }
 
 } // namespace
 
 std::size_t keepHighestOccupancy(const Structure& structure, Indices& atoms)
 {
+    const std::vector<std::int32_t> sites = sitesOf(structure, atoms);
+    std::vector<std::size_t> order(atoms.size()); // site by site
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto isBefore = [&](std::size_t a, std::size_t b) { return sites[a] < sites[b]; };
+    if (!std::is_sorted(sites.begin(), sites.end()))
+        std::stable_sort(order.begin(), order.end(), isBefore);
     std::vector<char> keep(atoms.size(), 1);
-    for (std::size_t begin = 0; begin < atoms.size();) {
-        const Residue& first = residueOf(structure, atomAt(structure, atoms[begin]));
-        std::size_t end = begin;
+    Indices site;
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
         bool alternatives = false;
-        for (; end < atoms.size(); ++end) {
-            const Atom& atom = atomAt(structure, atoms[end]);
-            if (!isSameSite(first, residueOf(structure, atom))) break;
-            alternatives = alternatives || atom.altloc != '\0';
+        site.clear();
+        for (; end < order.size() && sites[order[end]] == sites[order[begin]]; ++end) {
+            site.push_back(atoms[order[end]]);
+            alternatives = alternatives || atomAt(structure, site.back()).altloc != '\0';
         }
-        if (alternatives) chooseInResidue(structure, atoms, begin, end, keep);
-        begin = end;
+        if (!alternatives) continue;
+        const std::vector<char> ofSite = chooseInResidue(structure, site);
+        for (std::size_t i = begin; i < end; ++i) keep[order[i]] = ofSite[i - begin];
     }
     std::size_t kept = 0;
     for (std::size_t i = 0; i < atoms.size(); ++i) {

@@ -6,7 +6,13 @@
 #include "molsurf/structure/guess_element.h"
 #include "molsurf/structure/residue_names.h"
 
-#include <cctype>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <set>
+#include <utility>
 
 namespace molsurf
 {
@@ -39,14 +45,191 @@ std::size_t countAtoms(const gemmi::Structure& structure)
     return atoms;
 }
 
-/// Whether a residue of a name begins again with the atom that it began with: no link of a chain,
-/// and no unknown ligand, whose atoms Open Babel names by their elements.
-bool mayRepeat(const std::string& name)
+/// The molecules that stand in one residue as their numbers and names are the same.
+class Molecules
 {
-    if (name == "UNL") return false;
-    const NameClass kind = nameClass(name);
-    return kind != NameClass::AminoAcid && kind != NameClass::ModifiedAminoAcid &&
-           kind != NameClass::Nucleotide && kind != NameClass::ModifiedNucleotide;
+public:
+    /// @param[in] atoms  of the residue, in the order of the file
+    /// @param[in] links  whether links of chains may have been joined, too
+    Molecules(const Structure& structure, const std::vector<std::size_t>& atoms, bool links)
+        : structure_(structure), atoms_(atoms), links_(links)
+    {
+    }
+
+    /// Where another molecule begins, in `atoms`: at an atom whose name and alternate location are
+    /// those of one of the molecule before, if no bond joins it or what follows to that.
+    std::vector<std::size_t> begins()
+    {
+        if (!namesRepeat()) return {};
+        const NameClass kind = nameClass(residueOf(structure_, at(0)).name);
+        if (!links_ && isLink(kind)) return {};
+        single_ = kind == NameClass::Water || kind == NameClass::Ion;
+        if (structure_.placed && !single_) sortIntoCells();
+        std::vector<std::size_t> out;
+        std::set<Label> labels; // of the molecule
+        std::size_t last = 0;   // that a bond joins to it
+        for (std::size_t i = 0; i < atoms_.size(); ++i) {
+            const bool again = !at(i).name.empty() && !labels.insert(labelOf(i)).second;
+            if (again && last < i) {
+                out.push_back(i);
+                labels = {labelOf(i)};
+            }
+            last = std::max(last, lastPartner(i));
+        }
+        return out;
+    }
+
+private:
+    using Label = std::pair<std::string_view, char>;
+    using Cell = std::array<double, 3>;
+    static constexpr double tolerance = 0.45; // [Å], beyond covalent radii
+
+    const Atom& at(std::size_t i) const { return structure_.atoms[atoms_[i]]; }
+    Label labelOf(std::size_t i) const { return {at(i).name, at(i).altloc}; }
+
+    static bool isLink(NameClass kind)
+    {
+        return kind == NameClass::AminoAcid || kind == NameClass::ModifiedAminoAcid ||
+               kind == NameClass::Nucleotide || kind == NameClass::ModifiedNucleotide;
+    }
+
+    bool namesRepeat() const
+    {
+        std::vector<Label> labels;
+        for (std::size_t i = 0; i < atoms_.size(); ++i)
+            if (!at(i).name.empty()) labels.push_back(labelOf(i));
+        std::sort(labels.begin(), labels.end());
+        return std::adjacent_find(labels.begin(), labels.end()) != labels.end();
+    }
+
+    Cell cellOf(const Atom& atom) const
+    {
+        Cell out{};
+        for (int a = 0; a < 3; ++a)
+            if (std::isfinite(atom.position[a]))
+                out[std::size_t(a)] = std::floor(atom.position[a] / edge_);
+        return out;
+    }
+
+    void sortIntoCells()
+    {
+        double largest = 0.0;
+        for (std::size_t i = 0; i < atoms_.size(); ++i)
+            largest = std::max(largest, covalentRadius(at(i).element));
+        edge_ = 2.0 * largest + tolerance;
+        for (std::size_t i = 0; i < atoms_.size(); ++i) cells_.emplace_back(cellOf(at(i)), i);
+        std::sort(cells_.begin(), cells_.end());
+    }
+
+    /// Two oxygens of waters, or two ions of a kind, are never bonded.
+    bool areBonded(std::size_t i, std::size_t j) const
+    {
+        const Atom &a = at(i), &b = at(j);
+        if (single_ && a.element == b.element) return false;
+        const double longest = covalentRadius(a.element) + covalentRadius(b.element) + tolerance;
+        return (a.position - b.position).lengthSqr() < longest * longest;
+    }
+
+    /// The last atom that a bond joins to one; itself if there is none behind it.
+    std::size_t lastPartner(std::size_t i) const
+    {
+        if (!structure_.placed) return i;
+        constexpr std::size_t sites = 8; // of a water, at most
+        if (single_) {
+            std::size_t last = std::min(i + sites, atoms_.size() - 1);
+            while (last > i && !areBonded(i, last)) --last;
+            return last;
+        }
+        std::size_t best = i;
+        const Cell middle = cellOf(at(i));
+        for (int n = 0; n < 27; ++n) {
+            const Cell cell{middle[0] + n / 9 - 1, middle[1] + n / 3 % 3 - 1,
+                            middle[2] + n % 3 - 1};
+            auto next =
+                std::upper_bound(cells_.begin(), cells_.end(), std::pair(cell, atoms_.size()));
+            while (next != cells_.begin() && (--next)->first == cell && next->second > best)
+                if (areBonded(i, next->second)) best = next->second;
+        }
+        return best;
+    }
+
+    const Structure& structure_;
+    const std::vector<std::size_t>& atoms_;
+    bool links_;
+    bool single_ = false; ///< whether atoms of one element have no bonds
+    double edge_ = 1.0;   ///< of a cell [Å]
+    std::vector<std::pair<Cell, std::size_t>> cells_;
+};
+
+/// Puts the atoms of each model in the order of their serials, if these differ.
+void sortBySerials(Structure& structure)
+{
+    std::vector<std::size_t> order(structure.atoms.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto& serials = structure.serials;
+    for (const Model& model : structure.models) {
+        const auto begin = order.begin() + std::ptrdiff_t(model.begin);
+        const auto end = order.begin() + std::ptrdiff_t(model.end);
+        std::sort(begin, end, [&](auto a, auto b) { return serials[a] < serials[b]; });
+        if (std::adjacent_find(begin, end,
+                               [&](auto a, auto b) { return serials[a] == serials[b]; }) != end)
+            return;
+    }
+    std::vector<Atom> atoms;
+    std::vector<std::int32_t> sorted;
+    atoms.reserve(order.size());
+    sorted.reserve(order.size());
+    for (const std::size_t i : order) {
+        atoms.push_back(std::move(structure.atoms[i]));
+        sorted.push_back(serials[i]);
+    }
+    structure.atoms = std::move(atoms);
+    structure.serials = std::move(sorted);
+}
+
+/// Puts the residues in the order of their first atoms.
+void sortResidues(Structure& structure)
+{
+    std::vector<std::int32_t> places(structure.residues.size(), -1);
+    std::vector<Residue> residues;
+    residues.reserve(places.size());
+    for (Atom& atom : structure.atoms) {
+        std::int32_t& place = places[std::size_t(atom.residue)];
+        if (place < 0) {
+            place = std::int32_t(residues.size());
+            residues.push_back(std::move(structure.residues[std::size_t(atom.residue)]));
+        }
+        atom.residue = place;
+    }
+    structure.residues = std::move(residues);
+}
+
+/// Makes residues of the molecules that stand in one. Those of Open Babel's unknown ligands and of
+/// files without residues stay.
+/// @param[in] links  whether links of chains may have been joined, too
+/// @return whether there are any
+bool separateMolecules(Structure& structure, bool links)
+{
+    const std::size_t count = structure.residues.size();
+    std::vector<std::size_t> ends(count + 1, 0), order(structure.atoms.size());
+    for (const Atom& atom : structure.atoms) ++ends[std::size_t(atom.residue) + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[ends[std::size_t(structure.atoms[i].residue)]++] = i;
+    std::vector<std::size_t> atoms;
+    for (std::size_t r = 0; r < count; ++r) {
+        const std::size_t begin = r > 0 ? ends[r - 1] : 0, end = ends[r];
+        if (end - begin < 2 || structure.residues[r].name == "UNL") continue;
+        atoms.assign(order.begin() + std::ptrdiff_t(begin), order.begin() + std::ptrdiff_t(end));
+        std::vector<std::size_t> begins = Molecules(structure, atoms, links).begins();
+        begins.push_back(atoms.size());
+        for (std::size_t m = 0; m + 1 < begins.size(); ++m) {
+            structure.residues.push_back(structure.residues[r]);
+            for (std::size_t i = begins[m]; i < begins[m + 1]; ++i)
+                structure.atoms[atoms[i]].residue = std::int32_t(structure.residues.size()) - 1;
+        }
+    }
+    return structure.residues.size() > count;
 }
 
 } // namespace
@@ -78,11 +261,8 @@ void TreeCopier::add(const gemmi::Chain& chain, const gemmi::Residue& from)
     residue.insertionCode = from.seqid.icode;
     residue.hetatm = from.het_flag == 'H';
     if (entitiesKnown_) residue.entity = hintOf(from);
-    const bool repeats = mayRepeat(from.name); // gemmi joins waters whose numbers come again
+    if (!from.atoms.empty()) out_.residues.push_back(residue);
     for (const gemmi::Atom& atom : from.atoms) {
-        const bool first = &atom == &from.atoms[0];
-        if (first || (repeats && atom.altloc == '\0' && atom.name == from.atoms[0].name))
-            out_.residues.push_back(residue);
         auto element = std::uint8_t(atom.element.atomic_number());
         if (isMisread(element, atom.name, from.name)) element = 0;
         if (element == 0 && from.name != unknownAtoms) {
@@ -94,6 +274,13 @@ void TreeCopier::add(const gemmi::Chain& chain, const gemmi::Residue& from)
                               AtomRole::Atom, atom.occ, atom.b_iso, -1.0});
         out_.serials.push_back(atom.serial);
     }
+}
+
+void TreeCopier::finish()
+{
+    if (!separateMolecules(out_, true)) return;
+    sortBySerials(out_);
+    sortResidues(out_);
 }
 
 void dropPlainSerials(Structure& structure)
@@ -129,19 +316,15 @@ std::int32_t AtomTree::residueOf(const AtomLine& atom)
     const std::int32_t chain = chains_.index(std::string(atom.chain), out_.chains);
     segment_ = segmentTable_.index(std::string(atom.segment), segmentNames_);
     const auto count = std::int32_t(out_.residues.size());
-    if (count > modelBegin_ && isSame(count - 1, atom, chain)) {
-        const bool again =
-            lastRepeats_ && atom.altloc == '\0' &&
-            out_.atoms[std::size_t(firsts_[std::size_t(count - 1)])].name == atom.name;
-        if (!again) return count - 1;
-    } else {
-        for (std::int32_t r = count - 1; r >= modelBegin_; --r) { // alternatives that alternate
-            const Residue& before = out_.residues[std::size_t(r)];
-            if (before.chain != chain || before.number != atom.number ||
-                before.insertionCode != atom.insertionCode || atom.altloc == '\0')
-                break;
-            if (isSame(r, atom, chain)) return r;
-        }
+    if (count > modelBegin_ && isSame(count - 1, atom, chain)) return count - 1;
+    for (std::int32_t r = count - 1; r >= modelBegin_; --r) { // alternatives
+        const Residue& before = out_.residues[std::size_t(r)];
+        const bool sameNumber =
+            before.number == atom.number && before.insertionCode == atom.insertionCode;
+        const char other = altlocs_[std::size_t(r)]; // of the block before that of the atom
+        const bool inBlock = other != '\0' && other != atom.altloc;
+        if (atom.altloc == '\0' || before.chain != chain || !(sameNumber || inBlock)) break;
+        if (isSame(r, atom, chain)) return r;
     }
     Residue residue{};
     residue.name = atom.residue;
@@ -149,10 +332,9 @@ std::int32_t AtomTree::residueOf(const AtomLine& atom)
     residue.number = atom.number;
     residue.insertionCode = atom.insertionCode;
     residue.hetatm = atom.hetatm;
-    lastRepeats_ = mayRepeat(residue.name) && !atom.name.empty();
     out_.residues.push_back(std::move(residue));
     segments_.push_back(segment_);
-    firsts_.push_back(std::int32_t(out_.atoms.size()));
+    altlocs_.push_back(atom.altloc);
     return count;
 }
 
@@ -177,6 +359,7 @@ void AtomTree::add(const AtomLine& atom)
 {
     if (out_.models.empty()) startModel(1);
     const std::int32_t residue = residueOf(atom);
+    altlocs_[std::size_t(residue)] = atom.altloc;
     out_.atoms.push_back({atom.position, std::string(atom.name), residue, elementOf(atom),
                           atom.altloc, atom.role, atom.occupancy, atom.bFactor, atom.radius});
     const bool first = out_.models.back().begin + 1 == out_.atoms.size();
@@ -184,12 +367,14 @@ void AtomTree::add(const AtomLine& atom)
     out_.serials.push_back(atom.serial != 0 ? atom.serial : next);
 }
 
-Structure AtomTree::finish()
+Structure AtomTree::finish(bool placed)
 {
+    out_.placed = placed;
     if (!out_.models.empty()) out_.models.back().end = out_.atoms.size();
     if (!out_.models.empty() && out_.models.back().begin == out_.models.back().end)
         out_.models.pop_back();
     out_.asyms = out_.chains;
+    if (separateMolecules(out_, false)) sortResidues(out_);
     dropPlainSerials(out_);
     return std::move(out_);
 }

@@ -28,6 +28,9 @@ public:
     /// @param[in] goesOn  whether the first model goes on with the last one, if its number is that
     void add(const gemmi::Structure& tree, bool goesOn);
 
+    /// Separates molecules that gemmi joined as their numbers and names are the same.
+    void finish();
+
 private:
     void add(const gemmi::Chain& chain, const gemmi::Residue& from);
 
@@ -71,8 +74,9 @@ inline AtomLine unknownLigandAtom(const openvdb::Vec3d& position)
 }
 
 /// Makes a structure atom by atom, in the order of the file. A residue begins where its chain,
-/// number or names change, and where the first atom of a molecule other than a link of a chain
-/// comes again. Alternatives of one residue may alternate.
+/// number or names change, and in molecules other than links of chains where an atom of its name
+/// comes again that no bond joins to the residue before. Alternatives of one residue may
+/// alternate, and those of several may come one after the other.
 class AtomTree
 {
 public:
@@ -83,7 +87,8 @@ public:
     /// Says why no surface can be made of the current model.
     void spoil(const std::string& problem) { out_.models.back().problem = problem; }
 
-    Structure finish();
+    /// @param[in] placed  whether the atoms have places
+    Structure finish(bool placed = true);
 
 private:
     std::uint8_t elementOf(const AtomLine& atom);
@@ -94,11 +99,10 @@ private:
     NameTable chains_;
     NameTable segmentTable_;
     std::vector<std::string> segmentNames_;
-    std::int32_t segment_ = 0;           ///< of the atom that is added
-    std::vector<std::int32_t> segments_; ///< one a residue
-    std::vector<std::int32_t> firsts_;   ///< one a residue: its first atom
-    std::int32_t modelBegin_ = 0;        ///< first residue of the model
-    bool lastRepeats_ = false;           ///< whether the last residue may begin again
+    std::int32_t segment_ = 0;                              ///< of the atom that is added
+    std::vector<std::int32_t> segments_;                    ///< one a residue
+    std::vector<char> altlocs_;                             ///< one a residue: of its last atom
+    std::int32_t modelBegin_ = 0;                           ///< first residue of the model
     std::unordered_map<std::string, std::uint8_t> guesses_; ///< by names and mass
 };
 

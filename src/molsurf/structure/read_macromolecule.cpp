@@ -412,6 +412,9 @@ public:
     {
     }
 
+    /// To be called behind the last rows.
+    void finish() { copier_.finish(); }
+
     void add(Block& block, const Progress& progress)
     {
         makeLoop(block, "_atom_site.");
@@ -483,6 +486,7 @@ void addPieces(Block& block, const std::string& text, const CifRows& rows, const
         one.items.push_back(std::move(document.sole_block().items.at(0)));
         atoms.add(one, progress);
     }
+    atoms.finish();
 }
 
 /// @param[in] addRows  adds the atoms of the table _atom_site
@@ -554,7 +558,9 @@ Structure readDocument(std::string all, const std::string& path, const Progress&
         gemmi::cif::Document document = parse(all);
         std::string().swap(all);
         return structureOf(document, path, progress, [&](Block& block, Structure& out) {
-            AtomAdder(block, path, enough, out).add(block, progress);
+            AtomAdder atoms(block, path, enough, out);
+            atoms.add(block, progress);
+            atoms.finish();
         });
     } catch (const Error&) {
         throw;

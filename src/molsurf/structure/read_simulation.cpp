@@ -159,9 +159,7 @@ Structure readPsf(const std::string& text, const std::string& path)
                       "atom " + std::to_string(i + 1) + " of " + std::to_string(count));
         tree.add(psfAtom(lines, path));
     }
-    Structure out = tree.finish();
-    out.placed = false;
-    return out;
+    return tree.finish(false);
 }
 
 } // namespace molsurf

@@ -143,6 +143,7 @@ private:
         const std::size_t count = structure_.residues.size();
         previous_.assign(count, -1);
         next_.assign(count, -1);
+        std::vector<char> met(count, 0);
         std::vector<std::int32_t> last(structure_.chains.size(), -1);
         std::vector<const Model*> modelOf(structure_.chains.size(), nullptr); // of `last`
         for (const Model& model : structure_.models) {
@@ -155,7 +156,8 @@ private:
                 std::int32_t& before = last[chain];
                 if (modelOf[chain] != &model) before = -1;
                 modelOf[chain] = &model;
-                if (previous_[std::size_t(r)] >= 0 || before == r) continue;
+                if (met[std::size_t(r)]) continue;
+                met[std::size_t(r)] = 1;
                 previous_[std::size_t(r)] = before;
                 if (before >= 0) next_[std::size_t(before)] = r;
                 before = r;

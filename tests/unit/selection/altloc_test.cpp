@@ -95,6 +95,16 @@ TEST(Altloc, ResiduesWithInsertionCodesAreSitesOfTheirOwn)
     EXPECT_EQ(chosen(before + inserted), "CA:A CB CA:B");
 }
 
+/// One reading of several residues may come behind the other.
+TEST(Altloc, OfBlocksOneStays)
+{
+    std::string text = atom("CA", ' ', "GLY", 2, 1);
+    for (const char label : {'A', 'B'})
+        for (const int number : {3, 4})
+            text += atom("CA", label, "SER", number, 0.5) + atom("CB", label, "SER", number, 0.5);
+    EXPECT_EQ(chosen(text + atom("CA", ' ', "GLY", 5, 1)), "CA CA:A CB:A CA:A CB:A CA");
+}
+
 TEST(Altloc, ALabelKeepsTheBlankOnesToo)
 {
     const std::string text = atom("N", ' ', "SER", 1, 1) + atom("CA", 'A', "SER", 1, 0.7) +

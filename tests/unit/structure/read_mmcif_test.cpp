@@ -440,12 +440,14 @@ TEST(ReadMmcif, LongChainsAreCutBetweenResidues)
 TEST(ReadMmcif, WatersWhoseNumbersComeAgain)
 {
     std::string rows;
+    double x = 0.0;
     const auto add = [&](const char* name, const char* residue, int number) {
-        rows += std::string("HETATM 1 ") + name[0] + " " + name + " . " + residue +
-                " W . 1 2 3 1 0 " + std::to_string(number) + " W 1\n";
+        rows += std::string("HETATM 1 ") + name[0] + " " + name + " . " + residue + " W . " +
+                std::to_string(x) + " 2 3 1 0 " + std::to_string(number) + " W 1\n";
+        x += 0.9;
     };
-    for (int n = 0; n < 5; ++n)
-        for (const char* name : {"O", "H1", "H2"}) add(name, "HOH", 9998 + n % 2);
+    for (int n = 0; n < 5; ++n, x += 3.0)
+        for (const char* name : {"H1", "O", "H2"}) add(name, "HOH", 9998 + n % 2);
     for (int n = 0; n < 3; ++n) add("NA", "NA", 9998);
     for (const char* name : {"C", "C", "O", "C"}) add(name, "UNL", 1);
     expectSameInPieces(atomSite(full, rows));
@@ -453,6 +455,27 @@ TEST(ReadMmcif, WatersWhoseNumbersComeAgain)
     ASSERT_EQ(s.residues.size(), 5u + 3u + 1u);
     for (std::size_t r = 0; r < 5; ++r) EXPECT_TRUE(s.residues[r].water()) << r;
     EXPECT_EQ(s.residues[8].name, "UNL") << "which Open Babel names by elements";
+}
+
+/// gemmi joins the residues of two chains of one name.
+TEST(ReadMmcif, CopiesOfAChainByOneNameAreResiduesOfTheirOwn)
+{
+    std::string rows;
+    int id = 0;
+    for (const int x : {0, 60})
+        for (const int number : {1, 2})
+            for (const char* atom : {"N .", "CA .", "CB A", "CB B"}) {
+                ++id;
+                rows += "ATOM " + std::to_string(id) + " " + atom[0] + " " + atom + " SER A . " +
+                        std::to_string(x + id % 8) + " 0 " + std::to_string(5 * number) + " 1 0 " +
+                        std::to_string(number) + " A 1\n";
+            }
+    const Structure s = readMmcif(atomSite(full, rows));
+    ASSERT_EQ(s.residues.size(), 4u);
+    for (std::size_t i = 0; i < s.atoms.size(); ++i)
+        EXPECT_EQ(s.atoms[i].residue, std::int32_t(i / 4)) << "in the order of the file";
+    EXPECT_EQ(s.residues[2].number, 1);
+    expectSameInPieces(atomSite(full, rows));
 }
 
 /// One atom of each of many models, of which the last may be one of an earlier model again.

@@ -4,6 +4,8 @@
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <sstream>
 
 namespace molsurf::test
 {
@@ -48,6 +50,76 @@ TEST(ReadPdb, ReadsAtomsAndResidues)
     EXPECT_EQ(countElement(s, 16), 6u); // three disulphide bridges
     EXPECT_EQ(s.residues[45].name, "ASN");
     EXPECT_EQ(s.residues[45].number, 46);
+}
+
+/// "C 1.4 0 0" of each line: the atoms of residue 1, named by their elements.
+std::string byElements(const char* residue, const std::string& atoms)
+{
+    std::string text;
+    std::istringstream lines(atoms);
+    std::string element;
+    for (double x = 0, y = 0, z = 0; lines >> element >> x >> y >> z;) {
+        char line[100];
+        std::snprintf(line, sizeof line,
+                      "HETATM    1  %-3s %3s A   1    %8.3f%8.3f%8.3f  1.00  0.00          %2s\n",
+                      element.c_str(), residue, x, y, z, element.c_str());
+        text += line;
+    }
+    return text;
+}
+
+/// A molecule is what bonds join, whatever its atoms are named.
+TEST(ReadPdb, AResidueBeginsAgainWhereNoBondJoinsIt)
+{
+    const auto sizes = [](const std::string& text) {
+        const Structure s = readPdb(text);
+        std::vector<int> out(s.residues.size(), 0);
+        for (const Atom& a : s.atoms) ++out[std::size_t(a.residue)];
+        return out;
+    };
+    using Sizes = std::vector<int>;
+    const std::string glycol = "O 0 0 0 C 1.41 0 0 C 1.92 1.42 0 O 3.33 1.42 0 H 3.65 2.33 0 "
+                               "H -0.32 -0.91 0 ";
+    EXPECT_EQ(sizes(byElements("LIG", glycol)), Sizes{6});
+    EXPECT_EQ(sizes(byElements("LIG", glycol + "O 9 0 0 C 10.4 0 0 ")), (Sizes{6, 2}));
+    EXPECT_EQ(sizes(byElements("UNL", glycol + "O 9 0 0 C 10.4 0 0 ")), Sizes{8});
+    EXPECT_EQ(sizes(byElements("LIG", "C 0 0 0 O 9 0 0 C 8 0 0 N 1 0 0 ")), Sizes{4});
+    const std::string water = "O 0 0 0 H 0.96 0 0 H -0.24 0.93 0 ";
+    EXPECT_EQ(sizes(byElements("HOH", water + "O 2.7 0 0 H 3.6 0 0 H 2.4 0.9 0 ")), (Sizes{3, 3}));
+    EXPECT_EQ(sizes(byElements("HOH", "O 0 0 0 O 1.2 0 0 O 5 0 0 ")), (Sizes{1, 1, 1}));
+    EXPECT_EQ(sizes(byElements("HOH", "H 0.96 0 0 O 0 0 0 H -0.24 0.93 0 H 4 0 0 O 5 0 0 ")),
+              (Sizes{3, 2}));
+    EXPECT_EQ(sizes(byElements("NA", "NA 0 0 0 NA 3 0 0 ")), (Sizes{1, 1}));
+    EXPECT_EQ(sizes(byElements("ALA", "N 0 0 0 C 1.4 0 0 N 9 0 0 C 10.4 0 0 ")),
+              Sizes{4}); // a link
+}
+
+/// PDB and mmCIF correct what cannot be, and nothing else.
+TEST(ReadPdb, ElementsAreThoseOfMmcif)
+{
+    const struct {
+        const char *residue, *name, *symbol;
+        int element;
+    } rows[] = {{"ALA", "CA", "CA", 6},   {"MET", "SD", "SD", 16}, {"UNK", "CL1", "CL", 17},
+                {"ASH", "BR1", "BR", 35}, {"RU", "RU", "RU", 44},  {"ALA", "2HB", "X", 1},
+                {"UNX", "UNK", "X", 0},   {"DT", "HO5'", "HO", 1}, {"UNK", "FE", "FE", 26},
+                {"CYS", "SG", "SG", 16},  {"DA5", "I1", "I", 53}};
+    const std::string columns = "id type_symbol label_atom_id label_comp_id label_asym_id Cartn_x "
+                                "Cartn_y Cartn_z auth_seq_id";
+    for (const auto& row : rows) {
+        char line[100];
+        std::snprintf(line, sizeof line,
+                      "HETATM    1 %4s %3s A   1       1.000   2.000   3.000  1.00  0.00        "
+                      "  %2s\n",
+                      row.name, row.residue, row.symbol);
+        EXPECT_EQ(readPdb(line).atoms[0].element, row.element) << row.residue;
+        std::string cif = "data_a\nloop_\n";
+        std::istringstream names(columns);
+        for (std::string name; names >> name;) cif += "_atom_site." + name + "\n";
+        cif += std::string("1 ") + row.symbol + " \"" + row.name + "\" " + row.residue +
+               " A 1 2 3 1\n";
+        EXPECT_EQ(readPdb(cif, "a.cif").atoms[0].element, row.element) << row.residue;
+    }
 }
 
 /// Open Babel names the atoms of a ligand by their elements.
