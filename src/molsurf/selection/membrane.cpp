@@ -48,7 +48,7 @@ std::optional<Vec3d> normalOfDummies(const Structure& structure, const Model& mo
 bool isLipid(const Residue& residue)
 {
     const NameClass name = nameClass(residue.name);
-    return name == NameClass::Lipid || name == NameClass::CutLipid;
+    return name == NameClass::Lipid || name == NameClass::LongLipid || name == NameClass::CutLipid;
 }
 
 /// The ways of lipids from their phosphorus to their middle.

@@ -32,6 +32,7 @@ std::optional<ResidueKind> kindByName(const std::string& name)
     case NameClass::Ion:
         return ResidueKind::Ion;
     case NameClass::Lipid:
+    case NameClass::LongLipid:
     case NameClass::CutLipid:
         return ResidueKind::Lipid;
     case NameClass::Sugar:

@@ -270,8 +270,12 @@ private:
     /// The kind of what is no link of a chain.
     static ResidueKind moleculeKind(NameClass name, const Members& members, const Composition& all)
     {
-        if (name == NameClass::Buffer) return ResidueKind::Buffer;
+        constexpr std::size_t largestSolvent = 7; // heavy atoms
+        if (name == NameClass::Buffer ||
+            (name == NameClass::Solvent && all.atoms - all.hydrogens <= largestSolvent))
+            return ResidueKind::Buffer;
         if (name == NameClass::Lipid) return ResidueKind::Lipid;
+        if (name == NameClass::LongLipid && isLongLipid(all)) return ResidueKind::Lipid;
         if (name == NameClass::CutLipid && isCutLipid(all)) return ResidueKind::Lipid;
         if (name == NameClass::AmberLipid && (members.has("P31") || isTail(members, all)))
             return ResidueKind::Lipid;
@@ -293,6 +297,16 @@ private:
         constexpr std::size_t least = 6, withoutPhosphate = 10; // carbons
         return all.ionic == 0 && all.nitrogens <= 1 && all.phosphorus <= 1 &&
                all.carbons >= (all.phosphorus > 0 ? least : withoutPhosphate);
+    }
+
+    /// Whether a molecule with the name of a lipid of long tails is one: it is mostly carbon, up to
+    /// the head of a ganglioside.
+    static bool isLongLipid(const Composition& all)
+    {
+        constexpr std::size_t least = 20, mostNitrogens = 3;
+        const std::size_t polar = all.atoms - all.hydrogens - all.carbons;
+        return all.ionic == 0 && all.nitrogens <= mostNitrogens && all.carbons >= least &&
+               all.carbons >= 2 * polar;
     }
 
     /// A tail of Amber's lipids: hydrocarbon, or an acyl group.

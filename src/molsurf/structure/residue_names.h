@@ -22,7 +22,9 @@ enum class NameClass : std::uint8_t {
     Water,      ///< "HOH", "TIP3", "SOL"
     Ion,        ///< "CLA", "NA+", "ZN2"; see ionElement()
     Buffer,     ///< salts, buffers, solvents, cryoprotectants
+    Solvent,    ///< "THF": a solvent's name of a force field, or another molecule
     Lipid,      ///< lipids and detergents
+    LongLipid,  ///< "PSM": the name of a lipid of long tails, or another molecule
     CutLipid,   ///< "POP": a lipid's name without its last letters, or another molecule
     AmberLipid, ///< "PC", "OL": a head or a tail of Amber's lipids, or another molecule
     Sugar

@@ -99,7 +99,7 @@ TEST(ResidueKind, OfAWaterWithTwoLocationsIsWater)
 TEST(ResidueKind, OfLipidsByTheirNames)
 {
     for (const char* name :
-         {"POPC", "DOPE", "DPPG", "DLPS", "SOPA", "SAPI", "CHL1", "PSM", "CER1", "TOCL1"})
+         {"POPC", "DOPE", "DPPG", "DLPS", "SOPA", "SAPI", "CHL1", "CER1", "TOCL1"})
         EXPECT_EQ(nameClass(name), NameClass::Lipid) << name;
     for (const char* name : {"ASPP", "GLUP", "NALA", "HSPC", "AGLC", "LYSH", "POPX"})
         EXPECT_NE(nameClass(name), NameClass::Lipid) << name;
@@ -107,6 +107,26 @@ TEST(ResidueKind, OfLipidsByTheirNames)
     EXPECT_EQ(kinds(records("POP P C1 C2 C3 C4 C5 C6")), "lipid");
     EXPECT_EQ(kinds(records("DPP C1 C2 C3 C4 C5 C6 C7 C8 C9 C10")), "lipid");
     EXPECT_EQ(kinds(records("SAP P C1 C2 C3 C4 C5 C6 N1 N2 N3")), "ligand"); // a nucleotide
+}
+
+/// " C1 C2 C3" of a symbol and a number.
+std::string many(const char* symbol, int count)
+{
+    std::string out;
+    for (int n = 1; n <= count; ++n) out += std::string(" ") + symbol + std::to_string(n);
+    return out;
+}
+
+/// Names of force fields that name larger or other molecules in the Protein Data Bank.
+TEST(ResidueKind, OfNamesOfForceFieldsIsThatOfTheComposition)
+{
+    EXPECT_EQ(kinds(records("THF" + many("C", 4) + " O" + many("H", 8))), "buffer");
+    EXPECT_EQ(kinds(records("THF" + many("C", 20) + many("N", 7) + many("O", 7))), "ligand");
+    EXPECT_EQ(kinds(records("GDM" + many("C", 29) + many("N", 2) + many("O", 9))), "ligand");
+    EXPECT_EQ(kinds(records("PSM" + many("C", 39) + many("N", 2) + many("O", 6) + " P")), "lipid");
+    EXPECT_EQ(kinds(records("PSM" + many("C", 20) + many("N", 5) + many("O", 5))), "ligand");
+    EXPECT_EQ(kinds(records("CER" + many("C", 12) + " N1" + many("O", 3))), "ligand");
+    EXPECT_EQ(kinds(records("DDM" + many("C", 24) + many("O", 11))), "lipid");
 }
 
 /// The names of the particles that are no atoms.
