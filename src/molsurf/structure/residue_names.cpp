@@ -141,13 +141,19 @@ std::uint8_t ionElement(string_view name)
                             {"IP", "Na"},  {"IM", "Cl"},  {"CLO", "Cl"}, {"BRO", "Br"}};
     for (const Ion& ion : ions)
         if (name == ion.name) return elementNumber(ion.symbol);
-    std::size_t begin = 0;
-    while (begin < name.size() && std::isdigit(static_cast<unsigned char>(name[begin]))) ++begin;
+    const auto isLetterAt = [&](std::size_t at) {
+        return at < name.size() && std::isalpha(static_cast<unsigned char>(name[at]));
+    };
+    const std::size_t begin = name.empty() || isLetterAt(0) ? 0 : 1;
     std::size_t end = begin;
-    while (end < name.size() && std::isalpha(static_cast<unsigned char>(name[end]))) ++end;
-    const bool charge = name.find_first_not_of("0123456789+-", end) == string_view::npos;
-    const bool charmm = name.size() - end == 2 && name.substr(end) == "2P"; // MN2P
-    if (end == begin || end - begin > 2 || (!charge && !charmm)) return 0;
+    while (isLetterAt(end)) ++end;
+    const string_view before = name.substr(0, begin), behind = name.substr(end);
+    const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+    const auto digits = std::count_if(name.begin(), name.end(), isDigit);
+    const bool charge = behind.find_first_not_of("0123456789+-") == string_view::npos;
+    const bool charmm = behind == "2P"; // MN2P
+    const bool good = (before.empty() || isDigit(before[0])) && digits <= 1 && (charge || charmm);
+    if (end == begin || end - begin > 2 || !good) return 0;
     return elementNumber(std::string(name.substr(begin, end - begin)));
 }
 

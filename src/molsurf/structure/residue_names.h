@@ -34,7 +34,7 @@ enum class NameClass : std::uint8_t {
 NameClass nameClass(std::string_view residue);
 
 /// The atomic number of the ion that a residue or an atom is named by; 0 if there is none. "SOD",
-/// "NA", "NA+" and "Na+" are sodium, "CAL", "CA2+" calcium.
+/// "NA", "NA+" and "Na+" are sodium, "CAL", "CA2+" calcium. A charge has one digit.
 std::uint8_t ionElement(std::string_view name);
 
 /// True for the names of water: "HOH", "TIP3", "SOL", ...

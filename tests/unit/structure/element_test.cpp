@@ -43,6 +43,14 @@ TEST(GuessElement, OfIonsByAllNames)
     for (const auto& ion : ions) EXPECT_EQ(guess(ion.atom, ion.residue), ion.symbol) << ion.residue;
 }
 
+TEST(GuessElement, OfNamesThatAreNoIons)
+{
+    for (const char* name : {"1C9", "35B", "CA20", "B12", "2ZN1", "+NA"})
+        EXPECT_EQ(ionElement(name), 0) << name;
+    EXPECT_EQ(guess("CL", "1C9"), "Cl");
+    EXPECT_EQ(guess("BR1", "35B"), "Br");
+}
+
 TEST(GuessElement, OfAminoAcidsByAllNames)
 {
     for (const char* residue :
