@@ -60,7 +60,7 @@ private:
 /// The atoms of a residue by their elements, without particles and second locations.
 struct Composition {
     std::size_t atoms = 0, carbons = 0, oxygens = 0, hydrogens = 0, nitrogens = 0, phosphorus = 0,
-                others = 0, ionic = 0;
+                others = 0, ionic = 0, unknown = 0;
     bool oneElement = true;
 };
 
@@ -83,6 +83,7 @@ Composition compositionOf(const Members& members)
         out.phosphorus += atom.element == phosphorusElement;
         out.others += atom.element != carbon && atom.element != oxygen && atom.element != hydrogen;
         out.ionic += isIonic(atom.element);
+        out.unknown += atom.element == 0;
         out.oneElement = out.oneElement && atom.element == first->element;
     }
     return out;
@@ -170,6 +171,7 @@ private:
         const NameClass kind = names_[std::size_t(r)];
         const Members members = membersOf(r);
         const bool polymer = kind == NameClass::AminoAcid || kind == NameClass::Nucleotide;
+        const bool water = !polymer && isWaterWithSites(members);
         for (std::size_t i = 0; i < members.size(); ++i) {
             Atom& atom = members[i];
             if (atom.name.empty() || atom.radius >= 0.0 || atom.role != AtomRole::Atom) continue;
@@ -177,6 +179,7 @@ private:
             if (kind == NameClass::Water)
                 particle = particle || atom.name == "OM" || atom.name == "MW" ||
                            (atom.element == 0 && members.size() > 1);
+            particle = particle || (water && atom.element == 0);
             if (polymer) // dummy masses of GROMACS, pseudo-atoms of NMR
                 particle =
                     particle || (atom.element == 0 && (atom.name[0] == 'M' || atom.name[0] == 'Q'));
@@ -186,6 +189,16 @@ private:
             atom.role = AtomRole::Particle;
             atom.element = 0;
         }
+    }
+
+    /// Whether what has an element is one oxygen and two hydrogens.
+    static bool isWaterWithSites(const Members& members)
+    {
+        constexpr std::size_t most = 7; // atoms and sites of any model
+        if (members.size() > most) return false;
+        const Composition all = compositionOf(members);
+        return all.oxygens == 1 && all.hydrogens == 2 && all.carbons == 0 &&
+               all.others == all.unknown;
     }
 
     /// A Drude particle lies next to its atom, whose name it has behind a D. (Deuterium is bonded.)

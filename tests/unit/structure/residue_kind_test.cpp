@@ -143,6 +143,8 @@ TEST(Particles, AreVirtualSitesOfWaterAndLonePairs)
     EXPECT_EQ(particles(records("SOL OW HW1 HW2 MW,TIP5 O H1 H2 LP1 LP2,OPC O H1 H2 EPW")),
               "MW LP1 LP2 EPW");
     EXPECT_EQ(particles(records("SWM4 OH2 H1 H2 OM")), "OM");
+    EXPECT_EQ(particles(records("HO4 OW HW1 HW2 MW")), "MW"); // by its elements
+    EXPECT_EQ(kinds(records("HO4 OW HW1 HW2 MW")), "water");
     EXPECT_EQ(particles(records("LIG C1 LP1 EP")), "LP1 EP");
     EXPECT_EQ(particles(records("ALA N CA CB MCB,ALA QB CA")), "MCB QB");
     EXPECT_EQ(particles(records("LIG C1 MG,ALA CA OM,MG MG")), "");
