@@ -280,9 +280,24 @@ struct SubstructureLine {
     std::string chain, residue; ///< empty if it has none
 };
 
+/// Whether a name is one of the links of chains, or of water.
+bool isOfChainOrWater(string_view residue)
+{
+    switch (nameClass(residue)) {
+    case NameClass::AminoAcid:
+    case NameClass::ModifiedAminoAcid:
+    case NameClass::Nucleotide:
+    case NameClass::ModifiedNucleotide:
+    case NameClass::Water:
+        return true;
+    default:
+        return false;
+    }
+}
+
 /// How many letters of "SO4404" or "ALA12" are the name of the residue: those of `known`, if the
-/// text begins so; else the longest known name that digits follow; else all but the digits at the
-/// end.
+/// text begins so; all but the digits at the end, if that is a name of a chain's link or of water
+/// ("CYS16"); else the longest known name that digits follow, if it is no ion.
 std::size_t nameLength(string_view text, std::size_t digits, const std::string& known)
 {
     const auto isNumber = [&](std::size_t from) {
@@ -292,10 +307,12 @@ std::size_t nameLength(string_view text, std::size_t digits, const std::string& 
     };
     if (!known.empty() && text.substr(0, known.size()) == known && isNumber(known.size()))
         return known.size();
+    if (isOfChainOrWater(text.substr(0, digits))) return digits;
     for (std::size_t n = std::min<std::size_t>(5, text.size()); n > digits; --n)
-        if (isDigit(text[n - 1]) && isNumber(n) &&
-            nameClass(text.substr(0, n)) != NameClass::Unknown)
-            return n;
+        if (isDigit(text[n - 1]) && isNumber(n)) {
+            const NameClass kind = nameClass(text.substr(0, n));
+            if (kind != NameClass::Unknown && kind != NameClass::Ion) return n;
+        }
     return digits;
 }
 

@@ -177,6 +177,9 @@ TEST(ReadMol2, NamesOfResiduesMayEndWithDigits)
     EXPECT_EQ(residue("SO4404", ""), "SO4 404");
     EXPECT_EQ(residue("ALA12", ""), "ALA 12");
     EXPECT_EQ(residue("LIG1", ""), "LIG 1");
+    EXPECT_EQ(residue("CYS16", ""), "CYS 16"); // no 6 of GROMACS' CYS1
+    EXPECT_EQ(residue("CL20", ""), "CL 20");
+    EXPECT_EQ(residue("PO412", ""), "PO4 12");
 }
 
 TEST(ReadSdf, ADrawingBesideConformersIsRefusedWhereItIsAskedFor)
