@@ -127,6 +127,18 @@ std::uint8_t ofMass(double mass)
     return std::abs(mass - deuterium) < tolerance * deuterium ? 1 : 0;
 }
 
+/// Whether a mass can be that of the element that it is next to. It cannot be, as simulations move
+/// mass from heavy atoms to their hydrogens, where the name begins with another common element.
+bool agree(std::uint8_t ofMass, string_view atom)
+{
+    const string_view letters = lettersOf(atom);
+    const std::uint8_t first = ofPolymer(letters);
+    if (first == 0 || ofMass == first || ofMass == ionElement(atom)) return true;
+    constexpr std::uint8_t helium = 2;
+    return elementSymbol(ofMass)[0] == char(std::toupper(static_cast<unsigned char>(letters[0]))) &&
+           ofMass != helium;
+}
+
 } // namespace
 
 std::uint8_t guessElement(const ElementEvidence& evidence)
@@ -142,7 +154,8 @@ std::uint8_t guessElement(const ElementEvidence& evidence)
     if (isPorphyrin(evidence.residue) && isIn(" NA NB NC ND ", letters))
         return firstLetter(letters);
     if (isPorphyrin(evidence.residue) && letters == "CO") return elementNumber("Co");
-    if (const std::uint8_t element = ofMass(evidence.mass)) return element;
+    const std::uint8_t weighed = ofMass(evidence.mass);
+    if (weighed != 0 && agree(weighed, evidence.atom)) return weighed;
     if (const std::uint8_t element = ofTwoLetters(evidence)) return element;
     if (const std::uint8_t element = firstLetter(letters)) return element;
     const string_view two = letters.substr(0, 2); // "ZND"

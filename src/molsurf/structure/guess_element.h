@@ -24,7 +24,9 @@ struct ElementEvidence {
 /// Finds the atomic number of an atom; of a name without letters by its mass. It asks, in order:
 /// 1. names of ions, amino acids, nucleotides, waters and hemes: "SOD" of SOD is sodium, "CA" of
 ///    HSD carbon, "NA" of HEME nitrogen;
-/// 2. the mass, if it is that of an element to 0.1 % (a CH2 group is 0.14 % heavier than nitrogen);
+/// 2. the mass, if it is that of an element to 0.1 % (a CH2 group is 0.14 % heavier than nitrogen),
+///    and if the name does not begin with another common one, as where hydrogens have mass of the
+///    atoms next to them;
 /// 3. two letters, if no other reading is common: "CL1", "BR2", "FE", "ZN", "Cu1";
 /// 4. the first letter;
 /// 5. two letters, where the first names no element: "ZND" is zinc.

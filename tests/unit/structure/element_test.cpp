@@ -100,6 +100,10 @@ TEST(GuessElement, ByMassWhereNamesSayNothing)
     EXPECT_EQ(guess("D1", "LIG", 2.014), "H");
     EXPECT_EQ(guess("HB1", "ALA", 3.024), "H"); // repartitioned
     EXPECT_EQ(guess("SOD", "SOD", 22.9898), "Na");
+    EXPECT_EQ(guess("POT", "IONS", 39.0983), "K");
+    EXPECT_EQ(guess("FE", "LIG", 55.845), "Fe");
+    EXPECT_EQ(guess("H1", "LIG", 4.0026), "H"); // repartitioned, and the carbon that lost it
+    EXPECT_EQ(guess("C1", "LIG", 9.012), "C");
 }
 
 TEST(GuessElement, KnowsParticles)
