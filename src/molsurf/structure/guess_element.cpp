@@ -222,7 +222,7 @@ std::uint8_t elementOfAutoDockType(string_view type)
 
 bool isParticleSymbol(string_view symbol)
 {
-    return isIn(" EP LP VS DU XP MW ", symbol);
+    return isIn(" EP LP VS DU XP MW BQ ", symbol);
 }
 
 bool isParticleName(string_view atom)

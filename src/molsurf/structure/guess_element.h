@@ -48,7 +48,7 @@ std::uint8_t elementOfForceFieldType(std::string_view type);
 std::uint8_t elementOfAutoDockType(std::string_view type);
 
 /// True for what files write in the place of an element of a particle that is no atom: "EP", "VS",
-/// "LP".
+/// "LP", and "Bq" of a ghost.
 bool isParticleSymbol(std::string_view symbol);
 
 /// True for names of particles that are no atoms, in any residue: "EP1", "LPA", "EPW".

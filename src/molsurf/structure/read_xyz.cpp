@@ -3,6 +3,7 @@
 
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"
+#include "molsurf/structure/guess_element.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <map>
@@ -74,7 +75,8 @@ bool hasNames(const std::string& text)
             continue;
         const string_view letters = lettersAtBegin(fields[0]);
         const int element = elementOfSpecies(fields[0]);
-        if (letters.size() > 1 && element == 0 && elementOfSpecies(letters.substr(0, 1)) != 0)
+        if (letters.size() > 1 && !isParticleSymbol(letters) && element == 0 &&
+            elementOfSpecies(letters.substr(0, 1)) != 0)
             return true;
     }
     return false;
@@ -107,6 +109,7 @@ void readFrame(LineReader& lines, const std::string& path, int count, bool names
         AtomLine atom = unknownLigandAtom(position);
         const string_view species = fields[columns.species];
         if (!names) atom.element = elementOfSpecies(species);
+        if (!names && isParticleSymbol(lettersAtBegin(species))) atom.role = AtomRole::Particle;
         atom.guess = names;
         const char* const symbol = elementSymbol(std::uint8_t(atom.element));
         const std::string name =

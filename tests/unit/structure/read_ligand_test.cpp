@@ -215,6 +215,9 @@ TEST(ReadXyz, ReadsFramesAndColumns)
     const std::vector<int> byName{6, 6, 7, 17};
     for (std::size_t i = 0; i < byName.size(); ++i)
         EXPECT_EQ(named.atoms[i].element, byName[i]) << i;
+    const Structure ghost = readLigand("2\n\nCo 0 0 0\nBq 2 0 0\n");
+    EXPECT_EQ(ghost.atoms[0].element, 27);
+    EXPECT_EQ(ghost.atoms[1].role, AtomRole::Particle);
     EXPECT_HAS(ligandError("2\n\nO 0 0 0\nH 0 x 0\n", "a.xyz"),
                "line 4: expected element, x, y and z");
     EXPECT_HAS(ligandError("2\n\nO 0 0 0\n", "a.xyz"),
