@@ -34,10 +34,11 @@ bool isWaterBead(string_view name)
     return isOneOf(name, {"W", "WF", "SW", "TW", "PW"});
 }
 
-/// Charges beside the beads of polarizable Martini: of amino acids and of water. They have no size.
+/// Charges beside the beads of polarizable Martini: of amino acids and of water, and those of
+/// HADDOCK. They have no size.
 bool isCharge(string_view name)
 {
-    return isOneOf(name, {"SCP", "SCN", "WP", "WM"});
+    return isOneOf(name, {"SCP", "SCN", "WP", "WM"}) || isNumbered(name, "SCD");
 }
 
 /// Names of beads that no atom has.

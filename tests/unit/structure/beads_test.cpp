@@ -29,8 +29,9 @@ Structure beads(const std::string& residues, double apart = 3.0)
             char line[96];
             ++atom;
             std::snprintf(line, sizeof line,
-                          "ATOM  %5d  %-3s %-4sA%4d    %8.3f%8.3f%8.3f  1.00  0.00\n", atom,
-                          name.c_str(), residue.c_str(), number, apart * atom, 0.0, 0.0);
+                          "ATOM  %5d %-4s %-4sA%4d    %8.3f%8.3f%8.3f  1.00  0.00\n", atom,
+                          (name.size() < 4 ? " " + name : name).c_str(), residue.c_str(), number,
+                          apart * atom, 0.0, 0.0);
             text += line;
         }
         begin = end + 1;
@@ -46,6 +47,14 @@ TEST(Beads, MartiniByItsNames)
     EXPECT_EQ(beads("TYR BB SC1 SC2 SC3 SC4").beads, BeadKind::Martini3);
     EXPECT_EQ(beads("LEU BB SC1,LYS BB SC1 SC2").beads, BeadKind::Martini3); // no evidence
     EXPECT_EQ(beads("POP NC3 PO4 GL1 GL2 C1A D2A C3A C4A C1B C2B").beads, BeadKind::Martini3);
+}
+
+TEST(Beads, ChargesOfHaddockAreNone)
+{
+    const Structure s = beads("ASP BB SC1 SCD1,GLN BB SC1 SCD1 SCD2");
+    ASSERT_NE(s.beads, BeadKind::None);
+    EXPECT_EQ(s.atoms[1].role, AtomRole::Atom);
+    for (const std::size_t i : {2u, 5u, 6u}) EXPECT_EQ(s.atoms[i].role, AtomRole::Particle) << i;
 }
 
 TEST(Beads, MartiniBeadsHaveNoElementAndKnowWater)
