@@ -35,7 +35,8 @@ constexpr NameList nameLists[] = {
     {NameClass::Cap, "ACE NME NMA NH2 FOR CT1 CT2 CT3 ACEX NMEX"},
     // The Protein Data Bank; Amber with its ends 5 and 3 and lone N; CHARMM; GROMACS.
     {NameClass::Nucleotide,
-     "A C G U I DA DC DG DT DU DI N DN RA RC RG RU A5 A3 AN C5 C3 CN G5 G3 GN U5 U3 UN DA5 DA3 DAN "
+     "A C G T U I DA DC DG DT DU DI N DN RA RC RG RU A5 A3 AN C5 C3 CN G5 G3 GN U5 U3 UN DA5 DA3 "
+     "DAN "
      "DC5 DC3 DCN DG5 DG3 DGN DT5 DT3 DTN RA5 RA3 RAN RC5 RC3 RCN RG5 RG3 RGN RU5 RU3 RUN ADE CYT "
      "GUA THY URA DADE DCYT DGUA DTHY RADE RCYT RGUA RURA"},
     {NameClass::Water,

@@ -96,6 +96,11 @@ TEST(ResidueKind, OfAWaterWithTwoLocationsIsWater)
     EXPECT_EQ(kinds(water), "water");
 }
 
+TEST(ResidueKind, OfOldNamesOfNucleotidesIsNucleic)
+{
+    EXPECT_EQ(kinds(records("T P C1'")), "nucleic");
+}
+
 TEST(ResidueKind, OfLipidsByTheirNames)
 {
     for (const char* name :
