@@ -145,10 +145,11 @@ class Formats(ToolTest):
                 ("a.pse", b"\x80\x02}q\x00" + zeros, ["session of PyMOL", "save FILE.cif"]),
                 ("a.tpr", b"\x00\x00\x00\x15VERSION 2022" + zeros, ["run input of GROMACS", "editconf"]),
                 ("a.prmtop", b"%VERSION  VERSION_STAMP = V0001.000\n", ["topology of Amber", "cpptraj"]),
+                ("a.psf", b"data_cns_mtf\n\n_cns_mtf.title\n; none\n;\n", ["topology of CNS"]),
                 ("a.bcif", (b"\x83\xa7encoder" + zeros), ["a.bcif: is damaged BinaryCIF"])):
             self.write(name, content)
             self.check(1, name, "-o", "a.ply", says=[name, *says])
-        self.assertEqual(self.names(), ["a.bcif", "a.mmtf", "a.prmtop", "a.pse", "a.tpr"])
+        self.assertEqual(self.names(), ["a.bcif", "a.mmtf", "a.prmtop", "a.pse", "a.psf", "a.tpr"])
 
     def volume(self, name):
         """(origin, step, values[x][y][z]) of a map or a grid of APBS, read after the descriptions of the formats."""

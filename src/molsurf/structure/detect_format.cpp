@@ -147,8 +147,11 @@ namespace
 
 using Sample = StructureSample;
 
+constexpr string_view cnsTopology = "data_cns_mtf";
+
 bool isMmcif(const Sample& sample)
 {
+    if (sample.word == cnsTopology) return false;
     return startsWithNoCase(sample.word, "data_") || startsWithNoCase(sample.word, "global_") ||
            startsWithNoCase(sample.word, "loop_") || sample.word.substr(0, 1) == "_";
 }
@@ -276,6 +279,8 @@ const Refusal refusals[] = {
     {"a topology of Amber, which has no coordinates",
      " [hint: cpptraj or ambpdb makes FILE.pdb or FILE.pqr of it and of its coordinates]",
      [](const Sample& s) { return s.ends(".prmtop") || s.ends(".parm7") || s.word == "%VERSION"; }},
+    {"a topology of CNS, which has no coordinates", "",
+     [](const Sample& s) { return s.word == cnsTopology; }},
     {"a file of coordinates of CHARMM, which has no elements",
      " [hint: MDAnalysis and ParmEd turn it into FILE.pdb]", isCharmmCard},
     {"a file of coordinates without names",
