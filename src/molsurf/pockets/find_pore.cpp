@@ -51,6 +51,7 @@ std::string placeText(const Vec3d& x)
 struct Way {
     std::vector<Vec3d> places, tangents;
     std::vector<double> distances; ///< along it [Å]
+    std::vector<double> passed;    ///< along the tangents, without what it goes sideways [Å]
 };
 
 /// The extent of a lattice along an axis that holds all balls.
@@ -215,9 +216,54 @@ Ends endsOf(const BallSet::PoreWay& way, const std::vector<Ball>& balls, const C
     return ends;
 }
 
-/// A way in even steps, smoothed over 1 Å, with its directions over 4 Å.
-Way smoothed(const std::vector<Vec3d>& points)
+/// Cosine of the angle by which a way that follows a direction may turn away from it.
+constexpr double leastCosine = 0.5;
+
+/// Where a way from an end beside the middle of a pore has come to the middle: as long as it climbs
+/// to more room as a way straight to it does.
+/// @param[in] distances  of its points from the end [Å]
+std::size_t climbFrom(const std::vector<Vec3d>& points, const std::vector<double>& distances,
+                      const Clearance& clearance)
 {
+    constexpr double slack = 0.25; // of room, for points that lie on a lattice [Å]
+    const double room = clearance.at(points.front());
+    std::size_t end = 0;
+    while (end + 1 < points.size() &&
+           clearance.at(points[end + 1]) + slack >= room + leastCosine * distances[end + 1])
+        ++end;
+    return end;
+}
+
+/// Gives the points of the first part of a way the direction that it has after it: an end beside
+/// the middle of a pore does not turn the sections there.
+/// @param[in] distances  of its points from this end [Å]
+void turnEnd(const std::vector<Vec3d>& points, const std::vector<double>& distances, double half,
+             const Clearance& clearance, std::vector<Vec3d>& tangents)
+{
+    const double climb = distances[climbFrom(points, distances, clearance)];
+    const double till = std::min(climb + half, 0.5 * distances.back());
+    std::size_t i = 0;
+    while (distances[i] < till) ++i;
+    std::fill_n(tangents.begin(), i, tangents[i]);
+}
+
+/// Turns the sections at both ends.
+void turnEnds(const std::vector<Vec3d>& points, double half, const Clearance& clearance, Way& way)
+{
+    turnEnd(points, way.distances, half, clearance, way.tangents);
+    std::vector<Vec3d> back(points.rbegin(), points.rend());
+    std::vector<double> distances;
+    for (std::size_t i = points.size(); i-- > 0;)
+        distances.push_back(way.distances.back() - way.distances[i]);
+    std::reverse(way.tangents.begin(), way.tangents.end());
+    turnEnd(back, distances, half, clearance, way.tangents);
+    std::reverse(way.tangents.begin(), way.tangents.end());
+}
+
+/// A way in even steps, smoothed over 1 Å, with its directions over 4 Å.
+Way smoothed(const std::vector<Vec3d>& points, const Clearance& clearance)
+{
+    constexpr double over = 2.0; // half of what a direction is of [Å]
     Way out;
     out.places = points;
     out.distances = {0.0};
@@ -234,34 +280,41 @@ Way smoothed(const std::vector<Vec3d>& points)
         Vec3d sum(0.0);
         for (std::size_t k = begin; k <= end; ++k) sum += points[k];
         out.places[i] = sum / double(end - begin + 1);
-        const auto [first, last] = window(i, 2.0);
+        const auto [first, last] = window(i, over);
         Vec3d tangent = points[last] - points[first];
         tangent.normalize();
         out.tangents.push_back(tangent);
+    }
+    turnEnds(points, over, clearance, out);
+    out.passed = {0.0};
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Vec3d tangent = (out.tangents[i - 1] + out.tangents[i]) * 0.5;
+        out.passed.push_back(out.passed.back() +
+                             std::max((out.places[i] - out.places[i - 1]).dot(tangent), 0.0));
     }
     return out;
 }
 
 /// The sections, each with the point of the way in it that has the most room. They are at right
-/// angles to the axis, at even heights, if the way follows it everywhere; else to the way.
+/// angles to the axis, at even heights, if the way follows it everywhere; else to the way, at even
+/// steps along it.
 std::vector<Plane> sectionsOf(const std::vector<Vec3d>& points, const Ends& ends,
                               const Clearance& clearance)
 {
-    constexpr double leastCosine = 0.5; // cosine of the angle between the way and the axis
-    const Way way = smoothed(points);
+    const Way way = smoothed(points, clearance);
     std::vector<Plane> out;
     const auto follows = [&](const Vec3d& t) { return t.dot(ends.axis) > leastCosine; };
     const Vec3d& axis = ends.axis;
     const bool straight =
         ends.alongAxis || std::all_of(way.tangents.begin(), way.tangents.end(), follows);
     const double begin = straight ? points.front().dot(axis) : 0.0;
-    const double end = straight ? points.back().dot(axis) : way.distances.back();
+    const double end = straight ? points.back().dot(axis) : way.passed.back();
     for (double at = begin; at < end + 1e-6; at += stationSpacing) {
         double most = -std::numeric_limits<double>::infinity();
         std::optional<Plane> best;
         for (std::size_t i = 1; i < points.size(); ++i) {
-            const double a = straight ? points[i - 1].dot(axis) : way.distances[i - 1];
-            const double b = straight ? points[i].dot(axis) : way.distances[i];
+            const double a = straight ? points[i - 1].dot(axis) : way.passed[i - 1];
+            const double b = straight ? points[i].dot(axis) : way.passed[i];
             if (std::min(a, b) > at + 1e-6 || std::max(a, b) < at - 1e-6) continue;
             const double share = b == a ? 0.0 : std::clamp((at - a) / (b - a), 0.0, 1.0);
             const std::vector<Vec3d>& on = straight ? points : way.places;

@@ -18,8 +18,8 @@ namespace molsurf
 constexpr double stationSpacing = 0.25;
 
 /// Finds the way through balls that has the largest clearance at its narrowest place, and the
-/// largest ball in each section of it: at right angles to the axis, or to the way where that turns
-/// away from it.
+/// largest ball in each section of it: at right angles to the axis, or to the way if that turns
+/// away from the axis anywhere but near its ends.
 ///
 /// The way is found on a lattice; each section is then searched as a whole, and its ball and those
 /// of bottlenecks are exact but for rounding.

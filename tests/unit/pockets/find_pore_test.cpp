@@ -253,6 +253,20 @@ TEST(FindPore, SectionsTurnWithTheWay)
     EXPECT_GT(pore.length(), 22.0); // there and back
 }
 
+// Wherever in a tube the ends lie, its sections lie across it.
+TEST(FindPore, EndsBesideTheMiddleDoNotNarrowATube)
+{
+    const Tube tube{[](double) { return 4.7; }, 16, 1.7, 7.0};
+    for (const Vec3d& side : {Vec3d(2.0, 0.0, -6.0), Vec3d(0.0, 2.5, -6.0)}) {
+        const Vec3d from = tube.at(side[0], side[1], side[2]),
+                    to = tube.at(-side[0], side[1], -side[2]);
+        const Report::Pore pore =
+            findPore(tube.balls(), {{{from, true}, {to, true}}, Vec3d(0.0)}, nobody);
+        EXPECT_NEAR(pore.narrowest(), 3.0, 1e-4) << side;
+        EXPECT_NEAR(pore.length(), (to - from).length(), 0.3) << side;
+    }
+}
+
 void expectError(const std::vector<Ball>& balls, const BallSet::PoreWay& way, ErrorKind kind,
                  const char* text)
 {
