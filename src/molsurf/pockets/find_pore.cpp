@@ -485,6 +485,7 @@ void addNecks(const Clearance& clearance, std::vector<Pore::Station>& stations)
         if (!neck || neck->radius < station.radius - most) continue;
         const Vec3d normal = normalOf(station);
         const double ahead = (neck->place - placeOf(station)).dot(normal);
+        if (std::abs(ahead) >= stationSpacing) continue; // another station's
         Pore::Station exact = stationOf(*neck, normal);
         exact.isBottleneck = true;
         if (std::abs(ahead) < 1e-6) {
@@ -493,7 +494,6 @@ void addNecks(const Clearance& clearance, std::vector<Pore::Station>& stations)
         }
         station.isBottleneck = false;
         const bool after = ahead > 0.0;
-        if (std::abs(ahead) >= stationSpacing) continue;
         stations.insert(stations.begin() + std::ptrdiff_t(i + after), exact);
     }
 }

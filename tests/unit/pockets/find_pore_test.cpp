@@ -4,6 +4,8 @@
 #include "molsurf/error.h"
 #include "molsurf/pockets/clearance.h"
 
+#include "support/molecules.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -265,6 +267,20 @@ TEST(FindPore, EndsBesideTheMiddleDoNotNarrowATube)
         EXPECT_NEAR(pore.narrowest(), 3.0, 1e-4) << side;
         EXPECT_NEAR(pore.length(), (to - from).length(), 0.3) << side;
     }
+}
+
+// The narrowest place is a bottleneck, also where the saddle nearest to it is another one's.
+TEST(FindPore, TheNarrowestPlaceIsABottleneck)
+{
+    const std::vector<Ball> balls = test::balls("1ubq.pdb");
+    const auto middleOf = [&](std::size_t begin, std::size_t end) {
+        Vec3d sum(0.0);
+        for (std::size_t i = begin; i < end; ++i) sum += balls[i].center / double(end - begin);
+        return BallSet::PoreWay::End{sum, false};
+    };
+    const Report::Pore pore =
+        findPore(balls, {{middleOf(64, 72), middleOf(72, 80)}, Vec3d(0.0)}, nobody);
+    EXPECT_TRUE(narrowestOf(pore).isBottleneck);
 }
 
 void expectError(const std::vector<Ball>& balls, const BallSet::PoreWay& way, ErrorKind kind,
