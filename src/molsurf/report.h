@@ -314,8 +314,9 @@ struct Report {
         struct Station {
             std::array<double, 3> place = {};  ///< its centre [Å]
             std::array<double, 3> normal = {}; ///< of the section, a unit vector
-            double distance = 0.0;             ///< from the first section, along the normals [Å]
-            double radius = 0.0;               ///< negative within atoms [Å]
+            double distance = 0.0; ///< from the first section, along the normals: not along a way
+                                   ///< that is at an angle to them [Å]
+            double radius = 0.0;   ///< negative within atoms [Å]
             bool isBottleneck = false;         ///< whether it is the narrowest place nearby
             std::vector<std::size_t> lining{}; ///< indices of balls within 1 Å of it in the
                                                ///< caller's BallSet, the nearest first
@@ -326,8 +327,8 @@ struct Report {
 
         double length() const { return stations.back().distance; }
         double narrowest() const; ///< the least radius [Å]
-        /// Of a bath of bulkResistivity by Ohm's rule, without what leads to the ends; 0 where it
-        /// is closed [pS].
+        /// Of a bath of bulkResistivity by Ohm's rule, with steps of Station::distance, without
+        /// what leads to the ends; 0 where it is closed [pS].
         double conductance() const;
         /// A row for every section: distance_A, height_A (along the axis), x_A, y_A, z_A, radius_A,
         /// bottleneck (1 or 0), residues and atom_ids (within 1 Å, the nearest first).
