@@ -33,23 +33,44 @@ TEST(Depth, BetweenTwoBallsIsThatOfTheNeck)
     EXPECT_NEAR(depths[0], std::sqrt((r + probe) * (r + probe) - half * half) - probe, 1e-8);
 }
 
-// A shell of balls about a void for a probe, closed and with a hole.
-TEST(Depth, IsNotFromCavities)
+/// Balls on a sphere about 0, closed.
+std::vector<Ball> shellOf(int count, double radius)
 {
-    std::vector<Ball> shell;
-    constexpr int count = 400;
-    constexpr double radius = 12.0;
+    std::vector<Ball> out;
     for (int k = 0; k < count; ++k) {
         const double z = 1.0 - (2.0 * k + 1.0) / count, angle = 3.883222 * k;
         const double across = std::sqrt(1.0 - z * z);
-        shell.push_back(
+        out.push_back(
             {radius * Vec3d(across * std::cos(angle), across * std::sin(angle), z), 1.7, k});
     }
-    shell.push_back({Vec3d(radius - 3.0, 0.0, 0.0), 1.7, count});
+    return out;
+}
+
+// A shell of balls about a void for a probe, closed and with a hole.
+TEST(Depth, IsNotFromCavities)
+{
+    constexpr double radius = 12.0;
+    std::vector<Ball> shell = shellOf(400, radius);
+    shell.push_back({Vec3d(radius - 3.0, 0.0, 0.0), 1.7, 400});
     const Vec3d x = shell.back().center;
     EXPECT_NEAR(depthsOf(shell, 1.4, {x}, Progress())[0], 4.4, 0.3);
     shell.erase(shell.begin(), shell.begin() + 12); // those about the pole
     EXPECT_NEAR(depthsOf(shell, 1.4, {x}, Progress())[0], 1.7, 1e-6);
+}
+
+// What lies apart in a closed void is as deep as the shell about it is outside; so is what lies in
+// a void of that. What lies beside the shell is not.
+TEST(Depth, IsNotFromBodiesInCavities)
+{
+    std::vector<Ball> balls = shellOf(700, 15.0);
+    for (const Ball& ball : shellOf(100, 6.0)) balls.push_back(ball);
+    balls.push_back({Vec3d(0.0), 1.5, 800});
+    balls.push_back({Vec3d(0.0, 0.0, 40.0), 1.5, 801});
+    const auto depths =
+        depthsOf(balls, 1.4, {Vec3d(0.0), balls[750].center, Vec3d(0.0, 0.0, 40.0)}, Progress());
+    EXPECT_NEAR(depths[0], 16.7, 0.6); // between atoms it is less
+    EXPECT_NEAR(depths[1], 10.7, 0.6);
+    EXPECT_NEAR(depths[2], 1.5, 1e-6);
 }
 
 // By definition: the nearest of many places of the probe that touch no ball.
