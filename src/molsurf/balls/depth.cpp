@@ -99,6 +99,24 @@ std::vector<char> reachedFromOutside(const BallBoundary& boundary, const Boundar
     return out;
 }
 
+/// The radius of the largest ball that a box about the corners of a piece may hold: patches and
+/// arcs bulge into voids, so that these lie among their corners.
+double largestVoid(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                   const std::vector<char>& closed)
+{
+    std::vector<openvdb::BBoxd> boxes(closed.size());
+    const std::vector<std::int32_t> pieceOf = cornerPieces(boundary, measure);
+    for (std::size_t c = 0; c < pieceOf.size(); ++c)
+        if (pieceOf[c] >= 0) boxes[std::size_t(pieceOf[c])].expand(boundary.corners[c].position);
+    double most = 0.0;
+    for (std::size_t p = 0; p < closed.size(); ++p) {
+        if (!closed[p] || !boxes[p]) continue;
+        const openvdb::Vec3d size = boxes[p].extents();
+        most = std::max(most, 0.5 * std::min({size[0], size[1], size[2]}));
+    }
+    return most;
+}
+
 } // namespace
 
 OuterDepth::OuterDepth(const std::vector<Ball>& balls, double probe, const Progress& progress)
@@ -110,6 +128,7 @@ OuterDepth::OuterDepth(const std::vector<Ball>& balls, double probe, const Progr
     if (std::all_of(kept.begin(), kept.end(), [](char k) { return k != 0; })) return;
     for (char& k : kept) k = k ? 0 : 1;
     closed_ = std::make_unique<BoundaryPoints>(boundary_, measure_, kept);
+    voidRadius_ = largestVoid(boundary_, measure_, kept);
 }
 
 OuterDepth::Depth OuterDepth::at(const openvdb::Vec3d& x, bool hasRoom, double guess) const
@@ -117,6 +136,11 @@ OuterDepth::Depth OuterDepth::at(const openvdb::Vec3d& x, bool hasRoom, double g
     const auto [part, index, centre, distance] = open_->nearest(x, guess);
     const bool outside = hasRoom && !(closed_ && closed_->nearest(x, guess).distance < distance);
     return {(outside ? -distance : distance) - probe_, centre};
+}
+
+bool OuterDepth::isOutside(const openvdb::Vec3d& x, double guess) const
+{
+    return !closed_ || open_->nearest(x, guess).distance <= closed_->nearest(x, guess).distance;
 }
 
 std::vector<double> depthsOf(const std::vector<Ball>& balls, double probe,

@@ -36,14 +36,21 @@ public:
     /// @param[in] guess    the distance from the centre of a probe, for speed [Å], > 0
     Depth at(const openvdb::Vec3d& x, bool hasRoom, double guess) const;
 
+    /// Whether probes reach the void that a point lies in from outside.
+    /// @param[in] guess  as above
+    bool isOutside(const openvdb::Vec3d& x, double guess) const;
+
     /// Whether the probe fits into places that it does not reach from outside.
     bool hasVoids() const { return closed_ != nullptr; }
+
+    /// Centres of probes in such places are no farther from the edge of their space than this [Å].
+    double voidRadius() const { return voidRadius_; }
 
 private:
     BallBoundary boundary_;
     BoundaryMeasure measure_;
     std::unique_ptr<const BoundaryPoints> open_, closed_; ///< the pieces reached, and the others
-    double probe_;
+    double probe_, voidRadius_ = 0.0;
 };
 
 /// The distance of points from the nearest place that a probe reaches from outside: how far away

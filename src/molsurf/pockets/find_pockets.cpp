@@ -11,8 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace molsurf
@@ -22,6 +24,8 @@ using openvdb::Vec3f;
 
 namespace
 {
+
+constexpr double pocketDepth = 10.0; // a guess at the depth of a pocket and the probe [Å]
 
 /// The balls of walls with their parts of them, by basin.
 std::vector<std::vector<PocketReport::Lining>> liningsOf(const std::vector<Ball>& balls,
@@ -55,28 +59,114 @@ double passingRadius(const BasinMeasure::Mouth& mouth, const Clearance& clearanc
     return between ? neck->radius : mouth.radius;
 }
 
+/// Some directions, evenly on a sphere.
+std::vector<openvdb::Vec3d> directions()
+{
+    constexpr int count = 60;
+    constexpr double golden = 2.399963229728653; // angle [rad]
+    std::vector<openvdb::Vec3d> out;
+    for (int k = 0; k < count; ++k) {
+        const double z = 1.0 - (2.0 * k + 1.0) / count, across = std::sqrt(1.0 - z * z);
+        out.emplace_back(across * std::cos(golden * k), across * std::sin(golden * k), z);
+    }
+    return out;
+}
+
+/// The radius of the largest ball in a pocket: from its widest voxel it moves to where it has more
+/// room, by longer steps as long as there is more and by shorter ones where there is not.
+/// @param[in] isWithin  whether a point is of the pocket
+double largestBall(const openvdb::Vec3d& widest, double voxelSize, const Clearance& clearance,
+                   const std::function<bool(const openvdb::Vec3d&)>& isWithin)
+{
+    constexpr double exact = 1e-3; // the last step [Å]
+    static const std::vector<openvdb::Vec3d> ways = directions();
+    openvdb::Vec3d at = widest;
+    double most = clearance.at(at);
+    for (double step = 0.5 * voxelSize; step > exact;) {
+        openvdb::Vec3d best = at;
+        for (const openvdb::Vec3d& way : ways) {
+            const openvdb::Vec3d x = at + way * step;
+            const double there = clearance.at(x);
+            if (there <= most || !isWithin(x)) continue;
+            most = there;
+            best = x;
+        }
+        step *= best == at ? 0.5 : 1.5;
+        at = best;
+    }
+    return most;
+}
+
 /// The report of a basin by its own measures.
-/// @param[in] leastMouth  mouths that are narrower at their widest do not count [Å]
-PocketReport pocketOf(const BasinMeasure& basin, double peak, double leastMouth,
-                      const OuterDepth& outer,
+PocketReport pocketOf(const BasinMeasure& basin, const OuterDepth& outer,
                       const std::function<double(const BasinMeasure::Mouth&)>& passing)
 {
-    constexpr double guess = 10.0; // of a pocket's depth and the probe [Å]
     PocketReport out;
     out.volume = basin.volume;
     out.area = basin.area;
-    out.depth = outer.at(basin.deepest, false, guess).value;
-    out.radius = peak;
+    out.depth = outer.at(basin.deepest, false, pocketDepth).value;
     for (int k = 0; k < 3; ++k) out.centre[std::size_t(k)] = basin.moment[k] / basin.volume;
     for (const BasinMeasure::Mouth& mouth : basin.mouths)
-        if (mouth.widest >= leastMouth) out.mouths.push_back({mouth.area, passing(mouth)});
+        out.mouths.push_back({mouth.area, passing(mouth)});
     std::stable_sort(out.mouths.begin(), out.mouths.end(),
                      [](const auto& a, const auto& b) { return a.area > b.area; });
     return out;
 }
 
-/// Takes the exact measures of a pocket that is a whole cavity: those of the piece of the
-/// solvent-excluded surface of the balls about it that has the nearest volume, if one is near.
+/// Leaves out mouths that lead nowhere: those that are narrow, which are edges of the cut, and
+/// those of voids that the small probe does not reach from outside, which only touch the cut.
+void removeBlindMouths(const std::vector<Ball>& balls, double probe,
+                       std::vector<BasinMeasure>& basins, const Progress& progress)
+{
+    const double least = 0.5 * probe; // of the clearance, where a mouth is widest [Å]
+    const auto remove = [&](const auto& leadsNowhere) {
+        bool any = false;
+        for (BasinMeasure& basin : basins) {
+            auto& mouths = basin.mouths;
+            mouths.erase(std::remove_if(mouths.begin(), mouths.end(), leadsNowhere), mouths.end());
+            any = any || !mouths.empty();
+        }
+        return any;
+    };
+    using Mouth = BasinMeasure::Mouth;
+    if (!remove([=](const Mouth& mouth) { return mouth.widest < least; })) return;
+    const OuterDepth depth(balls, probe, progress);
+    if (depth.hasVoids())
+        remove([&](const Mouth& mouth) { return !depth.isOutside(mouth.widestPlace, probe); });
+}
+
+/// The balls about a void in parts: those whose grown balls hang together, of parts that line it.
+/// @param[in] near  Ball::atom is the ball that the lining names
+std::vector<std::vector<Ball>> partsAbout(const std::vector<Ball>& near, double probe,
+                                          const std::vector<PocketReport::Lining>& lining)
+{
+    const BallIndex index(near, {1.0, probe, 1.0});
+    DisjointSets sets(near.size());
+    for (std::uint32_t i = 0; i < near.size(); ++i) {
+        const Ball& ball = near[i];
+        const double touch = ball.radius + 2.0 * probe;
+        index.forEachNear(ball.center, ball.center, touch, [&](const Ball& o, std::int32_t k) {
+            if ((o.center - ball.center).length() < o.radius + touch)
+                sets.join(i, std::uint32_t(k));
+        });
+    }
+    std::set<std::size_t> lines;
+    for (const PocketReport::Lining& part : lining) lines.insert(part.ball);
+    std::map<std::uint32_t, std::vector<Ball>> parts;
+    for (std::uint32_t i = 0; i < near.size(); ++i)
+        if (lines.count(std::size_t(near[i].atom))) parts[sets.find(i)];
+    for (std::uint32_t i = 0; i < near.size(); ++i) {
+        const auto part = parts.find(sets.find(i));
+        if (part != parts.end()) part->second.push_back(near[i]);
+    }
+    std::vector<std::vector<Ball>> out;
+    for (auto& [root, balls] : parts) out.push_back(std::move(balls));
+    return out;
+}
+
+/// Takes the exact measures of a pocket that is a whole cavity: those of the solvent-excluded
+/// surface of the balls about it. One part of them has the wall, a piece that faces inward; other
+/// parts are bodies in the cavity. It is the one of the nearest volume, if one is near.
 void takeExact(const BallIndex& balls, double probe, const BasinMeasure& basin,
                const Progress& progress, PocketReport& pocket)
 {
@@ -84,32 +174,50 @@ void takeExact(const BallIndex& balls, double probe, const BasinMeasure& basin,
     constexpr double same = 0.15; // of the volume, by which cavities are told from each other
     openvdb::BBoxd box;
     for (const BasinMeasure::Wall& wall : basin.walls) box.expand(openvdb::Vec3d(wall.place));
-    std::vector<Ball> near;
-    balls.forEachNear(box.min(), box.max(), 2.5 * probe,
-                      [&](const Ball& ball, std::int32_t) { near.push_back(ball); });
-    const BallBoundary boundary = ballBoundary(near, probe, progress);
-    const ExcludedMeasure exact =
-        measureExcluded(boundary, measureBoundary(boundary, progress), probe, false, progress);
+    std::vector<Ball> near; // Ball::atom is the ball
+    balls.forEachNear(box.min(), box.max(), 2.5 * probe, [&](const Ball& ball, std::int32_t i) {
+        near.push_back({ball.center, ball.radius, i});
+    });
+    std::vector<std::vector<BoundaryPiece>> parts;
+    BoundaryPiece bodies; // all outer pieces
+    for (const std::vector<Ball>& part : partsAbout(near, probe, pocket.lining)) {
+        const BallBoundary boundary = ballBoundary(part, probe, progress);
+        parts.push_back(
+            measureExcluded(boundary, measureBoundary(boundary, progress), probe, false, progress)
+                .pieces);
+        for (const BoundaryPiece& piece : parts.back()) {
+            if (piece.volume < 0.0) continue;
+            bodies.volume += piece.volume;
+            bodies.area += piece.area;
+        }
+    }
     double least = same * basin.volume;
-    for (const BoundaryPiece& piece : exact.pieces) {
-        if (std::abs(-piece.volume - basin.volume) >= least) continue;
-        least = std::abs(-piece.volume - basin.volume);
-        pocket.volume = -piece.volume;
-        pocket.area = piece.area;
+    for (const std::vector<BoundaryPiece>& part : parts) {
+        BoundaryPiece within = bodies;
+        for (const BoundaryPiece& piece : part) {
+            if (piece.volume < 0.0) continue;
+            within.volume -= piece.volume;
+            within.area -= piece.area;
+        }
+        for (const BoundaryPiece& piece : part) {
+            const double volume = -piece.volume - within.volume;
+            if (piece.volume >= 0.0 || std::abs(volume - basin.volume) >= least) continue;
+            least = std::abs(volume - basin.volume);
+            pocket.volume = volume;
+            pocket.area = piece.area + within.area;
+        }
     }
 }
 
 /// Union-find of basins by their necks: whether a way leads out of each.
-std::vector<char> opened(const Basins& basins, const std::vector<BasinMeasure>& measures,
-                         double leastMouth)
+std::vector<char> opened(const Basins& basins, const std::vector<BasinMeasure>& measures)
 {
     DisjointSets sets(basins.count());
     for (const Neck& neck : basins.necks)
         sets.join(std::uint32_t(neck.basins[0]), std::uint32_t(neck.basins[1]));
     std::vector<char> roots(basins.count(), 0), out;
     for (std::uint32_t b = 0; b < measures.size(); ++b)
-        for (const BasinMeasure::Mouth& mouth : measures[b].mouths)
-            if (mouth.widest >= leastMouth) roots[sets.find(b)] = 1;
+        if (!measures[b].mouths.empty()) roots[sets.find(b)] = 1;
     for (std::uint32_t b = 0; b < measures.size(); ++b) out.push_back(roots[sets.find(b)]);
     return out;
 }
@@ -222,9 +330,9 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
     const VoidField space = voidField(balls, options, voxelSize, progress);
     const double voxelVolume = voxelSize * voxelSize * voxelSize;
     const Basins basins = splitAtNecks(space, options.neck, leastPocket / voxelVolume);
-    const std::vector<BasinMeasure> measures = measureBasins(space, basins, progress);
-    const double leastMouth = 0.5 * options.probeIn; // narrower ones are edges of the cut
-    const std::vector<char> isOpen = opened(basins, measures, leastMouth);
+    std::vector<BasinMeasure> measures = measureBasins(space, basins, progress);
+    removeBlindMouths(balls, options.probeIn, measures, progress);
+    const std::vector<char> isOpen = opened(basins, measures);
     // A point of a wall is on a probe that touches balls.
     std::vector<std::vector<PocketReport::Lining>> linings =
         liningsOf(balls, measures, 2.0 * options.probeIn + voxelSize, progress);
@@ -233,18 +341,23 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
     const auto passing = [&](const BasinMeasure::Mouth& mouth) {
         return passingRadius(mouth, clearance, voxelSize);
     };
+    const auto isWithin = [&](const openvdb::Vec3d& x) {
+        const bool hasRoom = clearance.at(x) >= options.probeOut;
+        return space.outer->at(x, hasRoom, pocketDepth).value >= options.cut;
+    };
     std::vector<char> hasNeck(basins.count(), 0);
     for (const Neck& neck : basins.necks)
         for (const std::int32_t basin : neck.basins) hasNeck[std::size_t(basin)] = 1;
     std::vector<FoundPocket> found;
     for (std::size_t b = 0; b < basins.count(); ++b) {
-        PocketReport pocket =
-            pocketOf(measures[b], double(basins.peaks[b]), leastMouth, *space.outer, passing);
+        PocketReport pocket = pocketOf(measures[b], *space.outer, passing);
         pocket.open = isOpen[b];
         pocket.lining = std::move(linings[b]);
         if (measures[b].mouths.empty() && !hasNeck[b])
             takeExact(index, options.probeIn, measures[b], progress, pocket);
-        if (pocket.volume >= leastPocket) found.emplace_back(std::move(pocket), b);
+        if (pocket.volume < leastPocket) continue;
+        pocket.radius = largestBall(measures[b].widest, voxelSize, clearance, isWithin);
+        found.emplace_back(std::move(pocket), b);
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first.volume > b.first.volume; });

@@ -341,6 +341,27 @@ private:
     std::priority_queue<std::pair<float, VoxelPlace>> open_;
 };
 
+/// Finds the deepest and the widest voxel of each basin.
+void findPlaces(const VoidField& space, const Basins& basins, std::vector<BasinMeasure>& out)
+{
+    std::vector<float> depths(basins.count(), -1.0f), rooms(depths);
+    for (std::size_t n = 0; n < space.table.size(); ++n) {
+        space.table.active(n).forEach([&](int v) {
+            const auto b = std::size_t(basins.of.leaf(n)[v]);
+            const float below = space.below.leaf(n)[v], clearance = space.clearance.leaf(n)[v];
+            const openvdb::Vec3d x = pointOf(space, VoxelPlace(n * leafSize + std::size_t(v)));
+            if (below > depths[b]) {
+                depths[b] = below;
+                out[b].deepest = x;
+            }
+            if (clearance > rooms[b]) {
+                rooms[b] = clearance;
+                out[b].widest = x;
+            }
+        });
+    }
+}
+
 } // namespace
 
 std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& basins,
@@ -360,24 +381,18 @@ std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& ba
                 basin.walls.push_back({Vec3f(share.wallMoment / share.wall), share.wall});
         }
     }
-    std::vector<float> depths(basins.count(), -1.0f);
-    for (std::size_t n = 0; n < leaves.size(); ++n) {
-        space.table.active(n).forEach([&](int v) {
-            const auto b = std::size_t(basins.of.leaf(n)[v]);
-            const float below = space.below.leaf(n)[v];
-            if (below <= depths[b]) return;
-            depths[b] = below;
-            out[b].deepest = pointOf(space, VoxelPlace(n * leafSize + std::size_t(v)));
-        });
-    }
+    findPlaces(space, basins, out);
     const Mouths mouths(leaves);
     const Passages passages(space, basins, mouths);
-    std::vector<double> widest(mouths.count(), 0.0);
+    std::vector<VoxelPlace> widest(mouths.count(), Passages::none);
     for (const auto& [place, mouth] : mouths.voxels())
-        widest[mouth] = std::max(widest[mouth], double(passages.clearance(place)));
+        if (widest[mouth] == Passages::none ||
+            passages.clearance(place) > passages.clearance(widest[mouth]))
+            widest[mouth] = place;
     for (std::size_t m = 0; m < mouths.count(); ++m) {
         const VoxelPlace narrowest = passages.narrowest(m);
-        BasinMeasure::Mouth mouth{mouths.area(m), widest[m]};
+        BasinMeasure::Mouth mouth{mouths.area(m), passages.clearance(widest[m])};
+        mouth.widestPlace = pointOf(space, widest[m]);
         if (narrowest != Passages::none) {
             mouth.radius = passages.clearance(narrowest);
             mouth.narrowest = pointOf(space, narrowest);

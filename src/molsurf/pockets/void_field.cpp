@@ -156,16 +156,36 @@ private:
     double probe_, cut_, voxel_, diagonal_;
 };
 
+/// A box of whole leaves about balls that are grown.
+openvdb::CoordBBox leavesAbout(const std::vector<Ball>& balls, double grown, double voxelSize)
+{
+    openvdb::BBoxd box;
+    for (const Ball& ball : balls) {
+        box.expand(ball.center - Vec3d(ball.radius + grown));
+        box.expand(ball.center + Vec3d(ball.radius + grown));
+    }
+    const double leaf = leafDim * voxelSize;
+    const Coord low = Coord::floor(box.min() / leaf), high = Coord::floor(box.max() / leaf);
+    return {Coord(low.x() * leafDim, low.y() * leafDim, low.z() * leafDim),
+            Coord((high.x() + 1) * leafDim - 1, (high.y() + 1) * leafDim - 1,
+                  (high.z() + 1) * leafDim - 1)};
+}
+
 } // namespace
 
 VoidField voidField(const std::vector<Ball>& balls, const PocketOptions& options, double voxelSize,
                     const Progress& progress)
 {
-    const double rim = 2.0 * voxelSize;
-    const BandWidths width{options.probeIn + rim, options.probeOut - options.probeIn + rim};
-    SparseField band =
-        distanceToUnion(unionOf(balls, options.probeIn, progress), voxelSize, width, progress).phi;
     const auto outer = std::make_shared<const OuterDepth>(balls, options.probeOut, progress);
+    const double rim = 2.0 * voxelSize, high = options.probeOut - options.probeIn + rim;
+    const BandWidths width{options.probeIn + rim, high + outer->voidRadius()};
+    // No void is outside of the balls, and what else is higher is not looked at.
+    const openvdb::CoordBBox box = outer->hasVoids()
+                                       ? leavesAbout(balls, options.probeIn + high, voxelSize)
+                                       : openvdb::CoordBBox::inf();
+    SparseField band =
+        distanceToUnion(unionOf(balls, options.probeIn, progress), voxelSize, width, progress, box)
+            .phi;
     const DepthOfLeaves depths(*outer, options, voxelSize);
     LeafField below(band.table.size());
     std::vector<DepthOfLeaves::Cubes> cubes(band.table.size());

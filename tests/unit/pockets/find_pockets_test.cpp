@@ -85,6 +85,49 @@ TEST(FindPockets, AClosedCavityIsExact)
     EXPECT_NEAR(lined, pockets[0].area, 0.02 * pockets[0].area);
 }
 
+// The largest ball in it, whatever the voxels: to the wall of a round void, and no less than the
+// small probe.
+TEST(FindPockets, TheLargestBallDoesNotDependOnVoxels)
+{
+    for (const double inner : {3.2, 7.0}) {
+        const auto balls = boxWith(Vec3d(std::ceil(inner) + 2.0),
+                                   [=](const Vec3d& x) { return x.length() < inner; });
+        double nearest = 1e9;
+        for (const Ball& ball : balls) nearest = std::min(nearest, ball.center.length());
+        for (const double voxel : {0.7, 0.45}) {
+            const auto pockets = pocketsOf(balls, voxel);
+            ASSERT_EQ(pockets.size(), 1u);
+            EXPECT_NEAR(pockets[0].radius, nearest - 1.5, 2e-3) << inner << " " << voxel;
+        }
+    }
+}
+
+// Its space is what the body leaves.
+TEST(FindPockets, ABodyInACavityIsTakenOff)
+{
+    auto balls = boxWith(Vec3d(9.0), [](const Vec3d& x) { return largest(x) < 6.5; });
+    const double cavity = cavityVolume(balls);
+    balls.push_back({Vec3d(0.5, 0.0, 0.0), 1.5, std::int32_t(balls.size())});
+    const auto pockets = pocketsOf(balls, 0.7);
+    ASSERT_EQ(pockets.size(), 1u);
+    EXPECT_NEAR(pockets[0].volume, cavity - 4.0 / 3.0 * M_PI * 1.5 * 1.5 * 1.5, 1e-6);
+}
+
+// A cavity that the cut touches has no way out there.
+TEST(FindPockets, ACavityAtTheCutIsClosed)
+{
+    const auto balls = boxWith(Vec3d(7.0), [](const Vec3d& x) {
+        return std::abs(x[1]) < 4.5 && std::abs(x[2]) < 4.5 && x[0] > -4.5 && x[0] < 6.5;
+    });
+    PocketOptions deeper;
+    deeper.cut = 3.3; // its top is 3 Å deep
+    const auto pockets = pocketsOf(balls, 0.5, deeper);
+    ASSERT_EQ(pockets.size(), 1u);
+    EXPECT_FALSE(pockets[0].open);
+    EXPECT_TRUE(pockets[0].mouths.empty());
+    EXPECT_NEAR(pockets[0].volume, cavityVolume(balls), 1e-9);
+}
+
 // Two rooms and a tunnel that passes balls of 1.5 or 2.5 Å, where those in the rooms have 3.5 Å.
 TEST(FindPockets, ADumbBellIsTwoIfItsNeckIsNarrow)
 {
@@ -188,6 +231,27 @@ TEST(FindPockets, AVoidForTheLargeProbeIsOne)
     }
 }
 
+// However wide a void is, its middle is of it.
+TEST(FindPockets, AWideVoidIsWhole)
+{
+    std::vector<Ball> balls;
+    constexpr int count = 760;
+    for (int k = 0; k < count; ++k) {
+        const double z = 1.0 - (2.0 * k + 1.0) / count, across = std::sqrt(1.0 - z * z);
+        balls.push_back(
+            {11.0 * Vec3d(across * std::cos(2.4 * k), across * std::sin(2.4 * k), z), 1.7, k});
+    }
+    for (const bool isFilled : {false, true}) {
+        if (isFilled) balls.push_back({Vec3d(0.0), 1.5, count});
+        const auto pockets = pocketsOf(balls, 0.6);
+        ASSERT_EQ(pockets.size(), 1u) << isFilled;
+        const double body = isFilled ? 4.0 / 3.0 * M_PI * 1.5 * 1.5 * 1.5 : 0.0;
+        EXPECT_NEAR(pockets[0].volume, cavityVolume(balls) - body, 1e-6) << isFilled;
+        EXPECT_NEAR(pockets[0].radius, isFilled ? 0.5 * (11.0 - 1.7 - 1.5) : 11.0 - 1.7, 0.1);
+        EXPECT_NEAR(pockets[0].depth, isFilled ? 12.7 - 1.5 : 12.7, 0.8);
+    }
+}
+
 TEST(FindPockets, OnlyThatAtSomePlaces)
 {
     const auto balls = boxWith(Vec3d(9.0, 5.0, 5.0), [](const Vec3d& x) {
@@ -201,6 +265,18 @@ TEST(FindPockets, OnlyThatAtSomePlaces)
     EXPECT_NEAR(at({5.0, 0.0, 0.0})[0].centre[0], 4.0, 0.05);
     EXPECT_NEAR(at({-5.0, 0.0, 0.0})[0].centre[0], -4.0, 0.05);
     EXPECT_TRUE(at({0.0, 30.0, 0.0}).empty());
+}
+
+// Those of molecules, too, one of which reaches above the cut.
+TEST(FindPockets, ClosedCavitiesOfMoleculesAreExact)
+{
+    for (const char* file : {"1crn.pdb", "1ubq.pdb"}) {
+        const std::vector<Ball> balls = test::balls(file);
+        double closed = 0.0;
+        for (const PocketReport& pocket : pocketsOf(balls))
+            if (!pocket.open) closed += pocket.volume;
+        EXPECT_NEAR(closed, cavityVolume(balls), 1e-6) << file;
+    }
 }
 
 // The space is that of its definition, point by point.
