@@ -385,8 +385,8 @@ CASES = {
          "vdb_molsurf convert a.vdb -j 1 -o a.ply --max-hours 1",
          "vdb_molsurf 1crn.pdb --voxel 1 --surface sas -o b.vdb; "
          "vdb_molsurf convert b.vdb -j 1 -o b.ply --max-hours 3e-4"),
-        ("fewer --max-steps", "vdb_molsurf 1crn.pdb --flow paper --max-steps 1000000 --max-hours 0.0003 -o a.ply",
-         "vdb_molsurf 1crn.pdb --flow paper --max-steps 5 --max-hours 0.0003 -o a.ply || test $? = 3"),
+        ("fewer --max-steps", "vdb_molsurf 1crn.pdb --flow paper --max-steps 2000 -j 64 --max-hours 0.0003 -o a.ply",
+         "vdb_molsurf 1crn.pdb --flow paper --max-steps 5 -j 64 --max-hours 0.0003 -o a.ply || test $? = 3"),
         ("a larger --voxel or --max-hours", # its threads make the estimate of hours smaller than it is
          "vdb_molsurf 1crn.pdb --surface ses --voxel 0.1 -j 64 --max-hours 1e-5 -o a.ply",
          "vdb_molsurf 1crn.pdb --surface ses --voxel 2 -j 64 --max-hours 1e-5 -o a.ply",

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace molsurf
@@ -57,23 +56,18 @@ public:
     }
 
     /// Where another molecule begins, in `atoms`: at an atom whose name and alternate location are
-    /// those of one of the molecule before, if no bond joins it or what follows to that.
+    /// those of the first atom of the molecule before, if no bond joins it or what follows to that.
     std::vector<std::size_t> begins()
     {
-        if (!namesRepeat()) return {};
+        if (!firstRepeats()) return {};
         const NameClass kind = nameClass(residueOf(structure_, at(0)).name);
         if (!links_ && isLink(kind)) return {};
         single_ = kind == NameClass::Water || kind == NameClass::Ion;
         if (structure_.placed && !single_) sortIntoCells();
         std::vector<std::size_t> out;
-        std::set<Label> labels; // of the molecule
-        std::size_t last = 0;   // that a bond joins to it
+        std::size_t last = 0; // that a bond joins to the molecule
         for (std::size_t i = 0; i < atoms_.size(); ++i) {
-            const bool again = !at(i).name.empty() && !labels.insert(labelOf(i)).second;
-            if (again && last < i) {
-                out.push_back(i);
-                labels = {labelOf(i)};
-            }
+            if (labelOf(i) == labelOf(0) && last < i) out.push_back(i);
             last = std::max(last, lastPartner(i));
         }
         return out;
@@ -93,13 +87,11 @@ private:
                kind == NameClass::Nucleotide || kind == NameClass::ModifiedNucleotide;
     }
 
-    bool namesRepeat() const
+    bool firstRepeats() const
     {
-        std::vector<Label> labels;
-        for (std::size_t i = 0; i < atoms_.size(); ++i)
-            if (!at(i).name.empty()) labels.push_back(labelOf(i));
-        std::sort(labels.begin(), labels.end());
-        return std::adjacent_find(labels.begin(), labels.end()) != labels.end();
+        for (std::size_t i = 1; i < atoms_.size(); ++i)
+            if (!at(i).name.empty() && labelOf(i) == labelOf(0)) return true;
+        return false;
     }
 
     Cell cellOf(const Atom& atom) const

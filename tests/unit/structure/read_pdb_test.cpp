@@ -89,6 +89,8 @@ TEST(ReadPdb, AResidueBeginsAgainWhereNoBondJoinsIt)
     EXPECT_EQ(sizes(byElements("HOH", "O 0 0 0 O 1.2 0 0 O 5 0 0 ")), (Sizes{1, 1, 1}));
     EXPECT_EQ(sizes(byElements("HOH", "H 0.96 0 0 O 0 0 0 H -0.24 0.93 0 H 4 0 0 O 5 0 0 ")),
               (Sizes{3, 2}));
+    EXPECT_EQ(sizes(byElements("HOH", "O 0 0 0 H 0.96 0 0 H 14.2 0.93 0 ")), Sizes{3})
+        << "a box cuts it";
     EXPECT_EQ(sizes(byElements("NA", "NA 0 0 0 NA 3 0 0 ")), (Sizes{1, 1}));
     EXPECT_EQ(sizes(byElements("ALA", "N 0 0 0 C 1.4 0 0 N 9 0 0 C 10.4 0 0 ")),
               Sizes{4}); // a link
