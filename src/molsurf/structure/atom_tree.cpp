@@ -81,12 +81,6 @@ private:
     const Atom& at(std::size_t i) const { return structure_.atoms[atoms_[i]]; }
     Label labelOf(std::size_t i) const { return {at(i).name, at(i).altloc}; }
 
-    static bool isLink(NameClass kind)
-    {
-        return kind == NameClass::AminoAcid || kind == NameClass::ModifiedAminoAcid ||
-               kind == NameClass::Nucleotide || kind == NameClass::ModifiedNucleotide;
-    }
-
     bool firstRepeats() const
     {
         for (std::size_t i = 1; i < atoms_.size(); ++i)

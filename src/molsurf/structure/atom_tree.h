@@ -74,8 +74,8 @@ inline AtomLine unknownLigandAtom(const openvdb::Vec3d& position)
 }
 
 /// Makes a structure atom by atom, in the order of the file. A residue begins where its chain,
-/// number or names change, and in molecules other than links of chains where an atom of its name
-/// comes again that no bond joins to the residue before. Alternatives of one residue may
+/// number or names change, and in molecules other than links of chains where one like its first
+/// atom comes again that no bond joins to the residue before. Alternatives of one residue may
 /// alternate, and those of several may come one after the other.
 class AtomTree
 {

@@ -283,16 +283,8 @@ struct SubstructureLine {
 /// Whether a name is one of the links of chains, or of water.
 bool isOfChainOrWater(string_view residue)
 {
-    switch (nameClass(residue)) {
-    case NameClass::AminoAcid:
-    case NameClass::ModifiedAminoAcid:
-    case NameClass::Nucleotide:
-    case NameClass::ModifiedNucleotide:
-    case NameClass::Water:
-        return true;
-    default:
-        return false;
-    }
+    const NameClass name = nameClass(residue);
+    return isLink(name) || name == NameClass::Water;
 }
 
 /// How many letters of "SO4404" or "ALA12" are the name of the residue: those of `known`, if the

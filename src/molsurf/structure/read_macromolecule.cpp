@@ -405,10 +405,8 @@ constexpr std::size_t rowsOfPiece = 20000; // which take 30 MB
 class AtomAdder
 {
 public:
-    /// @param[in] enough  rows of a part, at least
-    AtomAdder(Block& block, const std::string& path, std::size_t enough, Structure& out)
-        : path_(path), enough_(enough), entities_(block),
-          copier_(out, block.has_tag("_entity.type")), out_(out)
+    AtomAdder(Block& block, const std::string& path, Structure& out)
+        : path_(path), entities_(block), copier_(out, block.has_tag("_entity.type")), out_(out)
     {
     }
 
@@ -417,33 +415,43 @@ public:
 
     void add(Block& block, const Progress& progress)
     {
-        makeLoop(block, "_atom_site.");
-        completeAtomSite(block, path_);
-        keepOnlyAtoms(block);
-        gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
-        const std::vector<std::size_t> cuts =
-            loop ? cutsOfRows(*loop, enough_) : std::vector<std::size_t>();
-        if (cuts.size() <= 2) {
-            addTree(block, progress, goesOn_);
-        } else {
-            if (out_.atoms.empty()) out_.atoms.reserve(loop->length());
-            for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-                Block part("");
-                part.items.emplace_back(gemmi::cif::LoopArg{});
-                gemmi::cif::Loop& rows = part.items.back().loop;
-                rows.tags = loop->tags;
-                const auto at = [&](std::size_t row) {
-                    return std::make_move_iterator(loop->values.begin() +
-                                                   std::ptrdiff_t(row * loop->width()));
-                };
-                rows.values.assign(at(cuts[k]), at(cuts[k + 1]));
-                addTree(part, progress, goesOn_ || k > 0);
-            }
-        }
+        prepare(block);
+        addTree(block, progress, goesOn_);
         goesOn_ = true;
     }
 
+    /// The same of all rows at once, which may be cut.
+    /// @param[in] enough  rows of a part, at least
+    void addInParts(Block& block, std::size_t enough, const Progress& progress)
+    {
+        prepare(block);
+        gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
+        const std::vector<std::size_t> cuts =
+            loop ? cutsOfRows(*loop, enough) : std::vector<std::size_t>();
+        if (cuts.size() <= 2) return addTree(block, progress, false);
+        if (out_.atoms.empty()) out_.atoms.reserve(loop->length());
+        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+            Block part("");
+            part.items.emplace_back(gemmi::cif::LoopArg{});
+            gemmi::cif::Loop& rows = part.items.back().loop;
+            rows.tags = loop->tags;
+            const auto at = [&](std::size_t row) {
+                return std::make_move_iterator(loop->values.begin() +
+                                               std::ptrdiff_t(row * loop->width()));
+            };
+            rows.values.assign(at(cuts[k]), at(cuts[k + 1]));
+            addTree(part, progress, k > 0);
+        }
+    }
+
 private:
+    void prepare(Block& block)
+    {
+        makeLoop(block, "_atom_site.");
+        completeAtomSite(block, path_);
+        keepOnlyAtoms(block);
+    }
+
     void addTree(const Block& block, const Progress& progress, bool goesOn)
     {
         gemmi::Structure tree = gemmi::make_structure_from_block(block);
@@ -453,7 +461,6 @@ private:
     }
 
     const std::string& path_;
-    std::size_t enough_;
     EntityTypes entities_;
     TreeCopier copier_;
     Structure& out_;
@@ -467,7 +474,7 @@ void addPieces(Block& block, const std::string& text, const CifRows& rows, const
 {
     std::string head = "data_piece\nloop_\n";
     for (const std::string& tag : rows.tags) head += tag + "\n";
-    AtomAdder atoms(block, path, rows.longest, out);
+    AtomAdder atoms(block, path, out);
     keepOnlyAtoms(block);
     gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
     if (!loop || loop->length() != 1)
@@ -558,8 +565,8 @@ Structure readDocument(std::string all, const std::string& path, const Progress&
         gemmi::cif::Document document = parse(all);
         std::string().swap(all);
         return structureOf(document, path, progress, [&](Block& block, Structure& out) {
-            AtomAdder atoms(block, path, enough, out);
-            atoms.add(block, progress);
+            AtomAdder atoms(block, path, out);
+            atoms.addInParts(block, enough, progress);
             atoms.finish();
         });
     } catch (const Error&) {

@@ -30,6 +30,13 @@ enum class NameClass : std::uint8_t {
     Sugar
 };
 
+/// Whether it is a link of a chain, standard or modified.
+inline bool isLink(NameClass name)
+{
+    return name == NameClass::AminoAcid || name == NameClass::ModifiedAminoAcid ||
+           name == NameClass::Nucleotide || name == NameClass::ModifiedNucleotide;
+}
+
 /// The class of a name. Names of ions may have charges.
 NameClass nameClass(std::string_view residue);
 
