@@ -7,6 +7,7 @@
 
 #include "molsurf/ball.h"
 
+#include <openvdb/math/BBox.h>
 #include <openvdb/Types.h>
 
 #include <algorithm>
@@ -23,6 +24,18 @@ inline double largestRadius(const std::vector<Ball>& balls)
     double largest = 0.0;
     for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
     return largest;
+}
+
+/// The box about all balls; empty if there are none.
+/// @param[in] grown  how much larger the radii are [Å]
+inline openvdb::BBoxd boxOf(const std::vector<Ball>& balls, double grown = 0.0)
+{
+    openvdb::BBoxd box;
+    for (const Ball& ball : balls) {
+        box.expand(ball.center - openvdb::Vec3d(ball.radius + grown));
+        box.expand(ball.center + openvdb::Vec3d(ball.radius + grown));
+    }
+    return box;
 }
 
 /// The edge of the cells of a BallIndex: perRadius (r + grown), r being the largest radius that

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/plan_bricks.h"
 
+#include "molsurf/balls/ball_index.h"
 #include "molsurf/bricks/brick_file.h"
 
 #include "molsurf/core/words.h"
@@ -699,12 +700,7 @@ PlannedBrick costOfComparison(const PlannedBrick& a, const PlannedBrick& b)
 
 PlannedBrick costOfMap(const BallSet& atoms, const SurfaceOptions& options)
 {
-    const double reach = Influence(atoms, options).ofLabel();
-    openvdb::BBoxd box;
-    for (const Ball& ball : atoms.balls) {
-        box.expand(Vec3d(ball.center) - ball.radius - reach);
-        box.expand(Vec3d(ball.center) + ball.radius + reach);
-    }
+    const openvdb::BBoxd box = boxOf(atoms.balls, Influence(atoms, options).ofLabel());
     PlannedBrick cost;
     if (!box.empty())
         cost.seconds = secondsPerMapPoint * (box.extents() / options.voxel + 1.0).product();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_apbs.h"
 
+#include "molsurf/balls/ball_index.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/dx_array.h"
@@ -187,11 +188,7 @@ ApbsGrid readApbsGrid(const std::string& path, const PointCharges& charges)
 
 void checkCovers(const ApbsGrid& grid, const std::vector<Ball>& balls)
 {
-    openvdb::BBoxd box;
-    for (const Ball& ball : balls) {
-        box.expand(ball.center - Vec3d(ball.radius));
-        box.expand(ball.center + Vec3d(ball.radius));
-    }
+    const openvdb::BBoxd box = boxOf(balls);
     Vec3d needed(0.0);
     for (int axis = 0; axis < 3; ++axis)
         needed[axis] = 2.0 * std::max(box.max()[axis] - grid.center[axis],

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pockets/find_pore.h"
 
+#include "molsurf/balls/ball_index.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/words.h"
 #include "molsurf/pockets/clearance.h"
@@ -191,11 +192,7 @@ void checkNear(const Vec3d& end, const std::vector<Ball>& balls)
     // search that takes the longer the farther the ends are.
     // measured: 1grm.pdb.gz --pore '0,D,3 -> 0,-D,3' takes 1.3 s for D = 20, 18 s for 50
     constexpr double farthest = nearEnd + 10.0; // from the box of the balls [Å]
-    openvdb::BBoxd box;
-    for (const Ball& ball : balls) {
-        box.expand(ball.center - Vec3d(ball.radius));
-        box.expand(ball.center + Vec3d(ball.radius));
-    }
+    const openvdb::BBoxd box = boxOf(balls);
     Vec3d away;
     for (int i = 0; i < 3; ++i) away[i] = end[i] - std::clamp(end[i], box.min()[i], box.max()[i]);
     if (away.length() > farthest)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pockets/void_field.h"
 
+#include "molsurf/balls/ball_index.h"
 #include "molsurf/balls/depth.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/levelset/union_distance.h"
@@ -159,11 +160,7 @@ private:
 /// A box of whole leaves about balls that are grown.
 openvdb::CoordBBox leavesAbout(const std::vector<Ball>& balls, double grown, double voxelSize)
 {
-    openvdb::BBoxd box;
-    for (const Ball& ball : balls) {
-        box.expand(ball.center - Vec3d(ball.radius + grown));
-        box.expand(ball.center + Vec3d(ball.radius + grown));
-    }
+    const openvdb::BBoxd box = boxOf(balls, grown);
     const double leaf = leafDim * voxelSize;
     const Coord low = Coord::floor(box.min() / leaf), high = Coord::floor(box.max() / leaf);
     return {Coord(low.x() * leafDim, low.y() * leafDim, low.z() * leafDim),
