@@ -113,6 +113,7 @@ nb::list describeSettings()
         one["name"] = row.name;
         one["type"] = types[std::size_t(row.type)];
         one["text"] = withKeywords(row.text);
+        one["value"] = row.value ? row.value : ""; // what the text calls it: "L"
         one["preset"] = row.preset;
         one["words"] = row.words;
         one["low"] = row.low;

@@ -107,7 +107,9 @@ class Molecule:
         return self._core.warnings
 
     def surface(self, **options):
-        """The surface of the atoms. Keywords are those of surface(); read() may have given some.
+        """Makes the surface of the atoms. Keywords are those of surface(); those given to read() are the defaults.
+
+        Returns a Surface. Raises what surface() raises.
 
         Keywords:
         """
@@ -131,10 +133,22 @@ Molecule.surface.__doc__ = Molecule.surface.__doc__.rstrip() + "\n" + _options.d
 
 
 def read(source, *, groups=None, progress=None, threads=0, **options):
-    """Atoms of a file: PDB, mmCIF, BinaryCIF, gro, sdf, mol2, PQR, xyzr or xyzrn, also gzipped.
+    """Reads the atoms of a structure file and chooses which of them the surface has.
 
-    source: a path, the text of a file (with a line feed in it), its bytes, or something that has read().
+    The format is found by the content: PDB, mmCIF, BinaryCIF, gro, sdf, mol2, PQR, PDBQT, xyz, xyzr or xyzrn, also
+    compressed by gzip, bzip2 or xz.
+
+    source: a path, the text of a file (with a line feed in it), its bytes, or an object with a method read().
+    groups: selections by the name of a group, as {"site": "resid 5-9"}.
+    progress: a function of stage and fraction; True shows a bar of tqdm.
+    threads: threads at most; 0: all.
+
     Keywords of surface() are taken, too, and are the defaults of Molecule.surface().
+
+    Returns a Molecule: positions (n, 3) and radii (n,) float64 [Å], names, residues and chains of the n atoms.
+
+    Raises FileNotFoundError or IsADirectoryError for the path, InputError (a ValueError) if the file cannot be read or a
+    selection matches no atom, TypeError for an unknown keyword, OptionError for a value out of range.
 
     Keywords:
     """

@@ -131,6 +131,21 @@ std::string didYouMean(const std::string& typed, const std::vector<std::string>&
     return best.empty() ? "" : " [hint: did you mean " + best + "?]";
 }
 
+std::string meaningOf(const std::string& typed, const std::vector<Synonyms>& known)
+{
+    const std::string word = ' ' + lowered(typed) + ' ';
+    for (const Synonyms& row : known)
+        if ((' ' + std::string(row.words) + ' ').find(word) != std::string::npos) return row.meant;
+    return "";
+}
+
+std::string didYouMean(const std::string& typed, const std::vector<std::string>& words,
+                       const std::vector<Synonyms>& known)
+{
+    const std::string meant = meaningOf(typed, known);
+    return meant.empty() ? didYouMean(typed, words) : " [hint: did you mean " + meant + "?]";
+}
+
 bool isModestJson(std::string_view text)
 {
     constexpr int deepest = 64;
