@@ -27,6 +27,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -364,6 +365,22 @@ std::string poreLine(const Report::Pore& pore)
     return line;
 }
 
+/// Names pages that are slow to load or to send, with voxels that make them lighter: triangles, and
+/// so bytes, go by the inverse square of the voxel.
+void sayLargePages(const Call& call)
+{
+    constexpr double large = 12e6, wanted = 11e6; // [byte]
+    for (const Output& output : call.outputs) {
+        std::error_code none;
+        const auto bytes = std::filesystem::file_size(output.path, none);
+        if (output.format != findFormat("html") || none || double(bytes) <= large) continue;
+        const double voxel =
+            std::ceil(10.0 * call.options.voxel * std::sqrt(double(bytes) / wanted)) / 10.0;
+        say(formatted("%s: the page has %.0f MB [hint: --voxel %g makes it lighter]",
+                      output.path.c_str(), double(bytes) / 1e6, voxel));
+    }
+}
+
 } // namespace
 
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
@@ -376,6 +393,7 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     if (report.pockets) say(pocketsLine(*report.pockets));
     if (report.pore) say(poreLine(*report.pore));
     for (const std::string& line : leftOutOf(call)) say(line);
+    sayLargePages(call);
     const std::string closed = dependsOnGaps(call) ? closedByField(report, call.options) : "";
     if (!closed.empty()) say(closed);
     return report;
