@@ -575,6 +575,7 @@ void addSurface(nb::module_& m)
             all.push_back({cavity.area, cavity.volume});
         return owned<double>(std::move(all));
     });
+    type.def_prop_ro("warnings", [](const MadeSurface& s) { return s.result.report.warnings; });
     type.def("report_text",
              [](const MadeSurface& s) { return bytesOf(reportText(s.result.report)); })
         .def("contacts",

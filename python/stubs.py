@@ -176,6 +176,7 @@ def properties(types, shape="NDArray[np.{}]"):
 def main():
     print(HEAD + properties(ARRAYS) + properties(PLAIN, "{}") + METHODS)
     print("class Molecule:\n    def __len__(self) -> int: ...\n" + properties(OF_ATOMS) + properties(OF_MOLECULES, "{}") +
+          "    def superpose(self, onto: Molecule, names: Sequence[str] = ...) -> float: ...\n" +
           textwrap.indent(function("surface", "self", "surface", "Surface"), "    "))
     print(function("surface", "positions: ArrayLike, radii: ArrayLike", "surface", "Surface"))
     print(function("read", "source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO", "read", "Molecule"))

@@ -74,7 +74,9 @@ void completeReport(const Call& call, const BallSet& balls, const Report& read, 
 
 bool seesBehind(const Call& call)
 {
-    return call.showsPockets() || (call.picture.opacity < 1.0 && call.picture.allWalls);
+    const bool throughBodies = call.showsPockets() && !call.shows.empty();
+    return throughBodies ||
+           (call.picture.opacity < 1.0 && (call.picture.allWalls || call.showsPockets()));
 }
 
 RunLimits limitsOf(const Call& call)
@@ -93,9 +95,11 @@ RunLimits limitsOf(const Call& call)
 RunLimits limitsOf(const Call& call, const BallSet& atoms)
 {
     RunLimits limits = limitsOf(call);
-    // measured: build --show pockets of 1CRN, 4AT1, with --opacity 0.4 and without: 1.1 to 1.5
+    // measured: build --show pockets=all of 1CRN, 4AT1, with --opacity 0.4 and without: 1.1 to 1.5;
+    // few bodies take nothing beside the search for them
     constexpr double shareOfBodies = 0.7; // of what the search for them takes
-    if (call.showsPockets() && call.writes(Pixels))
+    constexpr std::size_t few = 20;
+    if (call.shownPockets > few && call.writes(Pixels))
         limits.besides.bytes +=
             std::size_t(shareOfBodies * double(costOfPockets(atoms, call.options).bytes));
     if (call.writes(Volume)) limits.besides.seconds += costOfMap(atoms, call.options).seconds;
@@ -210,14 +214,14 @@ std::vector<StageShare> stagesOf(const SurfaceOptions& options, double drawing)
 /// Refuses interfaces of one group, where the report of one structure would have nothing else.
 void checkGroups(const Call& call, const BallSet& balls)
 {
-    if (!call.has("interfaces") || call.verb != Build || !call.frames.empty() ||
+    const bool implied = !call.has("groups") && !call.has("group-by") && !call.colorGroups;
+    if (!call.has("interfaces") || !implied || call.verb != Build || !call.frames.empty() ||
         balls.labels->groups.size() > 1)
         return;
     throw Error(ErrorKind::Input,
                 "--interfaces: expected at least two groups, got " +
                     counted(balls.labels->groups.size(), "group", "groups") +
-                    (call.has("groups") ? " in --groups" : " by --group-by chain") +
-                    " [hint: --groups FILE names parts of a chain]");
+                    " by --group-by chain [hint: --groups FILE names parts of a chain]");
 }
 
 /// Whether the estimate is that of the run: it is of one surface, and of the steps that it needs.

@@ -39,8 +39,8 @@ Mesh drawnBodies(const Call& call, const BallSet& atoms, const Mesh& bodies, con
         std::min(call.shownPockets, bodies.triangles.empty() ? 0 : parts.size());
     if (count < parts.size() && count > 0 && !call.quiet && call.writes(Pixels | ColorChoices)) {
         terminal.erase();
-        say(formatted("pictures show the %zu largest of %zu pockets [hint: --show pockets=all]",
-                      count, parts.size()));
+        say(formatted("pictures show the %d largest of %d pockets [hint: --show pockets=all]",
+                      int(count), int(parts.size())));
     }
     std::vector<Color> used; // by the surface and the atoms beside it
     const ColorBy by = call.options.color;

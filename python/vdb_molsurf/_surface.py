@@ -535,7 +535,11 @@ def surface(positions, radii, **options):
         if name == "color" and _options.of_file(values[0], ("none", "mean-curvature", "gaussian-curvature")):
             raise ValueError(f"color: '{values[0][:40]}' needs atoms of a file [hint: read()]")
     x, r = _arrays.balls(positions, radii)
-    return Surface(_called(_core.surface, x, r, *made, **how), made)
+    core = _called(_core.surface, x, r, *made, **how)
+    for text in core.warnings:
+        if "nanometres" in text: # the others are in report["warnings"]
+            warnings.warn(f"surface: {text}", stacklevel=2)
+    return Surface(core, made)
 
 
 surface.__doc__ = surface.__doc__.rstrip() + "\n" + _options.documented("surface") + "\n"

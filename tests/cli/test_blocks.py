@@ -142,7 +142,7 @@ class Blocks(ToolTest):
         cells = re.findall(r"`((?:--[a-z]|-o )[^`]*)`", (ROOT / "docs" / "coming_from.md").read_text())
         self.assertGreater(len(cells), 30)
         for cell in cells:
-            if "FILE" in cell or cell in ("--probe", "--superpose auto"):
+            if "FILE" in cell or cell in ("--probe", "--voxel", "--superpose auto"):
                 continue
             words = cell.replace("b.pdb", str(CRAMBIN))
             output = "" if "-o " in cell else " -o x.json"

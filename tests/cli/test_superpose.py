@@ -116,6 +116,13 @@ class Superpose(ToolTest):
         both = "\n".join(line for line in text.splitlines() if line[:4] == "ATOM") + "\nTER\n" + moved(renamed)
         (self.folder / "two.pdb").write_text(both)
         self.check(1, "compare", "two.pdb", CRAMBIN, "--superpose", "name ZN", *FAST, says="matches no atom")
+        # Chains that have other names: what the error proposes helps.
+        other = "\n".join(line[:21] + "Z" + line[22:] if line[:4] == "ATOM" else line for line in text.splitlines()) + "\n"
+        (self.folder / "z.pdb").write_text(other)
+        (self.folder / "pq.pdb").write_text(both.replace(" A ", " P "))
+        self.check(1, "compare", "pq.pdb", "z.pdb", "--superpose", "auto", *FAST, says="[hint: --select takes one chain of each]")
+        report = self.compare("pq.pdb", "z.pdb", "--superpose", "auto", "--select", "chain P or chain Z")
+        self.assertLess(report["superposition"]["rmsd"], 1e-3)
         report = self.compare("two.pdb", CRAMBIN, "--superpose", "auto")
         self.assertEqual(report["superposition"]["atoms"], 46)
 

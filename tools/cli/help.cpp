@@ -14,11 +14,10 @@ namespace
 {
 
 /// The options that --help shows: those that most calls have, and what people ask for first.
-constexpr const char* common[] = {
-    "output", "folder",  "formats", "force",     "select",  "assembly", "hetero",
-    "waters", "radii",   "probe",   "frames",    "surface", "voxel",    "interfaces",
-    "color",  "pockets", "pore",    "superpose", "for",     "show",     "opacity",
-    "size",   "memory",  "dry-run", "bricks",    "threads"};
+constexpr const char* common[] = {"output",  "folder", "formats", "force",   "select", "assembly",
+                                  "hetero",  "waters", "radii",   "probe",   "frames", "surface",
+                                  "voxel",   "color",  "pockets", "pore",    "for",    "show",
+                                  "opacity", "size",   "memory",  "dry-run", "bricks", "threads"};
 
 bool isCommon(const Option& option)
 {
@@ -35,8 +34,21 @@ std::string nameOf(const VerbInfo& info)
     return info.verb == Build ? "" : std::string(info.name) + " ";
 }
 
+/// What comes first of a text, for the short help: up to the first semicolon, but for lists.
+std::string firstOf(const Option& option)
+{
+    const std::string name = option.name;
+    if (name == "output" || name == "select" || name == "surface" ||
+        option.text.find(';') == std::string::npos)
+        return textOf(option);
+    Option brief = option;
+    brief.text = wrapped(option.text.substr(0, option.text.find(';')), helpWidth);
+    return textOf(brief);
+}
+
 /// The lines of an option in a help text.
-std::string helpLine(const Option& option)
+/// @param[in] all  its whole text
+std::string helpLine(const Option& option, bool all = true)
 {
     std::string line = option.letter ? std::string("  -") + option.letter + ", --" : "      --";
     line += option.name;
@@ -44,7 +56,7 @@ std::string helpLine(const Option& option)
     const std::size_t column = 26;
     if (line.size() + 2 > column) line += "\n"; // a line of its own
     line.resize(line.back() == '\n' ? line.size() + column : column, ' ');
-    for (const char letter : textOf(option)) {
+    for (const char letter : all ? textOf(option) : firstOf(option)) {
         line += letter;
         if (letter == '\n') line.append(column, ' ');
     }
@@ -91,11 +103,11 @@ std::string verbLines()
     return text;
 }
 
-/// The groups of options of all verbs: "output, atoms, ...".
-std::string titles()
+/// The groups of options of a verb: "output, atoms, ...".
+std::string titles(Verb verb)
 {
     std::vector<std::string> all;
-    for (const OptionGroup& group : optionGroups(0xff)) all.push_back(lowered(group.title));
+    for (const OptionGroup& group : optionGroups(verb)) all.push_back(lowered(group.title));
     return joinWords(all, ", ");
 }
 
@@ -147,15 +159,18 @@ std::string helpText(Verb verb, bool all)
                        info.more + "Lengths are in Å. Defaults are in brackets.\n";
     text += exampleLines(info.examples);
     if (verb == Build) text += verbLines();
+    if (!all) text += "\nCommon options\n";
     for (const OptionGroup& group : optionGroups(verb)) {
         std::string lines;
         for (const Option& option : group.options)
-            if (all || isCommon(option)) lines += helpLine(option);
-        if (!lines.empty()) text += std::string("\n") + group.title + "\n" + lines;
+            if (all || isCommon(option)) lines += helpLine(option, all);
+        if (!lines.empty() && all) text += std::string("\n") + group.title + "\n";
+        text += lines;
     }
     if (!all)
         text += "\nAll options: vdb_molsurf " + nameOf(info) + "--help-all\n" +
-                wrapped("Groups of options: vdb_molsurf help GROUP, one of " + titles(), 88) + "\n";
+                wrapped("Groups of options: vdb_molsurf help GROUP, one of " + titles(verb), 88) +
+                "\n";
     return text + "\n" + wrapped("Exit status: " + statusOf(info), 88) + "\n";
 }
 

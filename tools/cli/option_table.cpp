@@ -174,7 +174,7 @@ void setView(Call& call, const Values& values)
                                               {"left", "-x"}});
     if (!(call.verb & (Build | Batch)) || !side.empty())
         wrongValue("view", "auto, a direction X,Y,Z, an axis as z or a FILE.view", view,
-                   side.empty() ? "" : " [hint: did you mean " + side + "?]");
+                   side.empty() ? "" : meant(side));
     call.viewed = view;
 }
 
@@ -531,7 +531,7 @@ OptionGroup poreOptions()
             {setting("pore", wholes)},
             {{"vdb_molsurf 1grm.pdb.gz --pore auto -o 1grm.pore.csv",
               "radius and lining along the channel"},
-             {"vdb_molsurf 1grm.pdb.gz --pore z --view x -o 1grm.png",
+             {"vdb_molsurf 1grm.pdb.gz --pore auto --view x -o 1grm.png",
               "a picture across the channel"}}};
 }
 
@@ -645,7 +645,8 @@ Option panelOption()
         for (const std::string& value : values) {
             const auto way = directionOf(value);
             if (value.empty() || (way && !(way->length() > 0.0 && std::isfinite(way->length()))))
-                wrongValue("panel", "a file, a kind of surface or a direction X,Y,Z that is not 0",
+                wrongValue("panel",
+                           "a file or a direction X,Y,Z that is not 0, or a kind of surface",
                            value);
             const auto kind = surfaceKindOf(value);
             std::error_code ignored;
@@ -779,7 +780,7 @@ OptionGroup runOptions()
             constexpr std::size_t least = 1024; // a number without its unit
             if (call.memory < least)
                 wrongValue("memory", "a size such as 500M or 4G", values.back(),
-                           " [hint: did you mean " + values.back() + "G?]");
+                           meant(values.back() + "G"));
         };
         return o;
     };

@@ -121,10 +121,11 @@ Verb takeVerb(std::vector<std::string>& words)
     return Build;
 }
 
-/// A hint to type something else.
-std::string meant(const std::string& words)
+/// Refuses an option without its value.
+[[noreturn]] void missingValue(const Option& option)
 {
-    return " [hint: did you mean " + words + "?]";
+    misuse("--" + std::string(option.name) + ": expected a value, got none [hint: for example " +
+           exampleOf(option) + "]");
 }
 
 /// A hint on an option that a verb does not have: its name as the program has it, what another
@@ -180,12 +181,10 @@ std::string hintOf(Verb verb, const std::string& name, const std::vector<std::st
         for (const Option& option : group.options) {
             const bool letter = option.letter && name == std::string(1, option.letter);
             if (!(option.verbs & verb) || (option.name != name && !letter)) continue;
-            if (option.value)
-                misuse("--" + std::string(option.name) + ": expected a value, got none" +
-                       " [hint: " + exampleOf(option) + ", for example]");
+            if (option.value) missingValue(option);
             misuse("--" + std::string(option.name) + ": it is a switch and takes no value");
         }
-    misuse(std::string(error.what()) + " [hint: vdb_molsurf --help]");
+    misuse(error.what());
 }
 
 /// Whether a switch is on, by its value in a file of options.
@@ -219,9 +218,7 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
         if (known && known->value && !known->repeats && !values.empty())
             misuse("--" + name + " is given twice");
         if (known && known->value) {
-            if (option.value.empty() || option.value[0].empty())
-                misuse("--" + name + ": expected a value, got none [hint: " + exampleOf(*known) +
-                       ", for example]");
+            if (option.value.empty() || option.value[0].empty()) missingValue(*known);
             values.insert(values.end(), option.value.begin(), option.value.end());
         }
     }
@@ -335,7 +332,7 @@ Parsed parse(int argc, const char* const* argv)
     } catch (const po::error_with_option_name& e) {
         refuseValue(call.verb, e);
     } catch (const po::error& e) {
-        misuse(std::string(e.what()) + " [hint: vdb_molsurf --help]");
+        misuse(e.what());
     }
     if (call.has("help-all")) return {{}, helpText(call.verb, true)};
     if (call.has("help")) return {{}, helpText(call.verb, false)};

@@ -59,6 +59,7 @@ constexpr ValueExample examples[] = {{"output", "surface.vdb"},
                                      {"steps", "12"},
                                      {"bricks", "8"},
                                      {"memory", "4G"},
+                                     {"max-input", "10G"},
                                      {"threads", "4"},
                                      {"config", "options.txt"}};
 

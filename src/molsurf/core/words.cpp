@@ -128,7 +128,12 @@ std::string didYouMean(const std::string& typed, const std::vector<std::string>&
             best = word;
         }
     }
-    return best.empty() ? "" : " [hint: did you mean " + best + "?]";
+    return best.empty() ? "" : meant(best);
+}
+
+std::string meant(const std::string& words)
+{
+    return " [hint: did you mean " + words + "?]";
 }
 
 std::string meaningOf(const std::string& typed, const std::vector<Synonyms>& known)
@@ -142,8 +147,8 @@ std::string meaningOf(const std::string& typed, const std::vector<Synonyms>& kno
 std::string didYouMean(const std::string& typed, const std::vector<std::string>& words,
                        const std::vector<Synonyms>& known)
 {
-    const std::string meant = meaningOf(typed, known);
-    return meant.empty() ? didYouMean(typed, words) : " [hint: did you mean " + meant + "?]";
+    const std::string meaning = meaningOf(typed, known);
+    return meaning.empty() ? didYouMean(typed, words) : meant(meaning);
 }
 
 bool isModestJson(std::string_view text)

@@ -202,8 +202,8 @@ void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) cons
         for (std::size_t s = 0; s < packet; ++s)
             if (front && !options_.allWalls && bodyPiece[s] != Seen::body)
                 wallDepths[s] = Seen::nothing; // behind the nearest wall there is no other
-        const auto send = [&](const Shapes& shapes, const auto& depths, const auto& seenOf) {
-            const EyeRays eye = from(at, depths);
+        const auto send = [&](const Shapes& shapes, const auto& begins, const auto& seenOf) {
+            const EyeRays eye = from(at, begins);
             const RTCRayHit4 hits = meet(shapes, eye);
             for (std::size_t s = 0; s < count; ++s) {
                 if (hits.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;

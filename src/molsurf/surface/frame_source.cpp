@@ -32,9 +32,7 @@ FrameRange parseFrames(const std::string& text)
     number(range.first);
     if (at != end && *at != '-') { // a range of Python or of MDAnalysis, or a step of one frame
         const char* next = std::find_if(at, end, [](char c) { return c >= '0' && c <= '9'; });
-        wrong(next == end ? ""
-                          : " [hint: did you mean " + std::to_string(range.first) + "-" +
-                                std::string(next, end) + "?]");
+        wrong(next == end ? "" : meant(std::to_string(range.first) + "-" + std::string(next, end)));
     }
     range.last = range.first;
     if (at != end && *at == '-') {

@@ -91,7 +91,7 @@ PictureSetting sizeSetting()
                 const std::size_t by = lowered(values.back()).find_first_of("x,*"); // "800x600"
                 if (by != std::string::npos && by > 0)
                     wrongValue("size", "the width alone", values.back(),
-                               " [hint: did you mean " + values.back().substr(0, by) + "?]");
+                               meant(values.back().substr(0, by)));
                 set(to, values);
             }};
 }
@@ -107,8 +107,7 @@ PictureSetting opacitySetting()
         if (!number.empty() && number.back() == '%') number.pop_back();
         double percent = 0.0;
         if (parseWhole(number, percent) && percent > 1.0 && percent <= 100.0)
-            wrongValue("opacity", range.words, values.back(),
-                       " [hint: did you mean " + shortest(percent / 100.0) + "?]");
+            wrongValue("opacity", range.words, values.back(), meant(shortest(percent / 100.0)));
         set(to, values);
     };
     return row;

@@ -329,7 +329,9 @@ Setting kindSetting()
             s.options.kind = kind;
             return;
         }
-        wrongValue("surface", joinWords(words, " or "), values.back(), kindMeant(values.back()));
+        const std::string hint = kindMeant(values.back());
+        wrongValue("surface", joinWords(words, " or "), values.back(),
+                   (hint.empty() ? "" : " (more hints: vdb_molsurf help surface)") + hint);
     };
     return row;
 }
@@ -580,15 +582,14 @@ void setRange(Settings& s, const Values& values)
         const std::size_t dash = values.back().find_first_of("-:", 1); // "0-100"
         const bool two = words.size() == 1 && dash < values.back().size();
         wrongValue("range", expected, values.back(),
-                   two ? " [hint: did you mean " + values.back().substr(0, dash) + "," +
-                             values.back().substr(dash + 1) + "?]"
+                   two ? meant(values.back().substr(0, dash) + "," + values.back().substr(dash + 1))
                        : "");
     }
     const double low = parsedValue<double>("range", expected, words[0]);
     const double high = parsedValue<double>("range", expected, words[1]);
     if (!(low < high))
         wrongValue("range", expected, values.back(),
-                   low > high ? " [hint: did you mean " + words[1] + "," + words[0] + "?]" : "");
+                   low > high ? meant(words[1] + "," + words[0]) : "");
     s.atoms.coloring.range = {low, high};
 }
 
