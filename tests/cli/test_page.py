@@ -223,7 +223,7 @@ class Page(ToolTest):
 
     def test_a_large_page_is_named(self):
         """With voxels that make it lighter."""
-        done = self.check(0, DATA / "4at1.ent.gz", "--voxel", 0.24, "-o", "a.html")
+        done = self.check(0, DATA / "4at1.ent.gz", "--voxel", 0.2, "-o", "a.html")
         hint = re.search(r"a\.html: the page has \d+ MB \[hint: --voxel ([\d.]+) makes it lighter\]", done.stderr.decode())
         self.assertTrue(hint, done.stderr)
         done = self.check(0, DATA / "4at1.ent.gz", "--voxel", hint[1], "-o", "a.html", "--force")
