@@ -6,7 +6,7 @@
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/match_atoms.h"
-#include "molsurf/selection/parse_words.h"
+#include "molsurf/selection/selection_words.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
@@ -108,7 +108,7 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         const std::size_t length =
             std::size_t(columns[end - 1].data() + columns[end - 1].size() - first);
         if (length <= longest) rule.select = std::string(first, length);
-        if (end > 2 && !hasWords(rule.select)) { // then blanks part it from a wrong colour
+        if (end > 2 && !hasSelectionWords(rule.select)) { // then blanks part it from a wrong colour
             rule.select = columns[1];
             end = 2;
         }

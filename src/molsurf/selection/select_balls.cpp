@@ -131,9 +131,15 @@ void chooseAltloc(const Structure& structure, const std::string& altloc, Filter&
         failInput(structure, "alternate location " + inQuotes(altloc) + ": expected one of " +
                                  joined({labels.begin(), labels.end()}));
     }
+    std::set<std::pair<std::int32_t, std::string>> labelled; // that the label has
+    for (const std::int32_t i : filter.atoms()) {
+        const Atom& atom = structure.atoms[std::size_t(i)];
+        if (atom.altloc == altloc[0]) labelled.emplace(atom.residue, atom.name);
+    }
     filter.drop("alternate location", [&](std::int32_t i) {
-        const char label = structure.atoms[std::size_t(i)].altloc;
-        return label != '\0' && label != altloc[0];
+        const Atom& atom = structure.atoms[std::size_t(i)];
+        return atom.altloc == '\0' ? labelled.count({atom.residue, atom.name}) > 0
+                                   : atom.altloc != altloc[0];
     });
 }
 
@@ -620,11 +626,37 @@ std::vector<openvdb::Vec3d> pocketPlaces(const Structure& structure, const Selec
     return out;
 }
 
+/// Warns if the ligand that marks a pocket is a part of the molecule, which fills the pocket.
+void warnOfFilledPocket(const Structure& structure, const SelectOptions& options,
+                        const Model& model, BallSet& out)
+{
+    if (options.pocketAt.empty()) return;
+    std::vector<char> used(structure.atoms.size());
+    for (const Ball& ball : out.balls) used[std::size_t(ball.atom)] = 1;
+    const AtomMatch match = matchAtoms(structure, options.pocketAt);
+    std::set<std::string> names;
+    std::size_t count = 0;
+    for (std::size_t i = model.begin; i < model.end; ++i) {
+        const Residue& residue = residueOf(structure, structure.atoms[i]);
+        if (!match.atoms[i] || !used[i] || !residue.hetero()) continue;
+        ++count;
+        names.insert(residue.name);
+    }
+    if (count == 0) return;
+    const std::string name = *names.begin();
+    out.warnings.push_back("`pocketAt`: " + counted(count, "atom", "atoms") + " of " +
+                           joined({names.begin(), names.end()}) +
+                           " are a part of the molecule, and fill the pocket [hint: `select` \"not "
+                           "resname " +
+                           name + "\" leaves them out]");
+}
+
 /// Adds where a pocket and a pore are searched for.
 void addPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
                BallSet& out)
 {
     out.pocketAt = pocketPlaces(structure, options, model);
+    warnOfFilledPocket(structure, options, model, out);
     out.pore = poreWay(options.pore, structure, model);
 }
 

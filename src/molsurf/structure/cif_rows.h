@@ -2,38 +2,32 @@
 #pragma once
 
 /// @file
-/// The rows of a table of atoms in an mmCIF text, piece by piece: a document of all of them takes
+/// The rows of a table of atoms in an mmCIF text, line by line: a document of all of them takes
 /// over ten times the memory of the text.
 
-#include <gemmi/cifdoc.hpp>
+#include "molsurf/structure/text_fields.h"
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace molsurf
 {
 
-/// Where the rows of the first loop _atom_site are, and where they may be cut: each piece can be
-/// read as a loop of its own, for no residue goes on or comes again in the next one.
+/// Where the rows of the first loop _atom_site are in a text: bytes [begin, end).
 struct CifRows {
     std::vector<std::string> tags;
-    std::vector<std::size_t> cuts; ///< first byte of each piece, and the byte behind the last
-    std::size_t firstEnd = 0;      ///< byte behind the first row
-    std::size_t rows = 0;
-    std::size_t longest = 0; ///< rows of the longest piece
+    std::size_t begin = 0, firstEnd = 0, end = 0; ///< firstEnd: behind the first row
 };
 
-/// Finds the rows.
-/// @param[in] rowsOfPiece  that a piece has at least
-/// @return nothing where they are not one a line, or a model comes back, or chains are not given:
-///         such a table is read as a whole
-std::optional<CifRows> findCifRows(const std::string& text, std::size_t rowsOfPiece);
+/// Finds the rows; nothing where the tags of the loop do not lie on lines of their own, or where
+/// the first row is not one line.
+std::optional<CifRows> findCifRows(const std::string& text);
 
-/// The numbers of rows of a loop _atom_site at which it may be cut in the same way, from 0 to that
-/// of all, without a cut where findCifRows() returns nothing: gemmi looks through the residues of a
-/// chain, and through the models, for each of them.
-std::vector<std::size_t> cutsOfRows(const gemmi::cif::Loop& loop, std::size_t rowsOfPiece);
+/// Splits a line by the rules of CIF, quotes included.
+/// @return false if it holds more than values: a comment, a keyword, a text of several lines
+bool splitRow(std::string_view line, Fields& fields);
 
 } // namespace molsurf

@@ -3,6 +3,7 @@
 
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"
+#include "molsurf/structure/pdb_columns.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -161,6 +162,34 @@ int takeElement(Fields& fields)
     return element;
 }
 
+/// Whether coordinates of eight characters touch without a sign between, as "2009.6762995.631".
+bool hasTouching(const Fields& fields, std::size_t columns)
+{
+    return fields.size() < columns &&
+           std::any_of(fields.begin(), fields.end(), [](string_view field) {
+               return std::count(field.begin(), field.end(), '.') >
+                      1 + std::count(field.begin() + !field.empty(), field.end(), '-');
+           });
+}
+
+/// Adds an atom whose coordinates and names are those of the columns of a PDB file.
+void addGlued(AtomTree& tree, const Place& place, int element, std::vector<float>& charges)
+{
+    constexpr std::size_t behind = 54;
+    const string_view line = place.lines.line();
+    AtomLine atom = atomInColumns(line.substr(0, behind), PdbLayout());
+    atom.position = placeInColumns(place.path, place.lines);
+    const Fields fields = splitFields(line.substr(std::min(behind, line.size())));
+    if (fields.size() < 2)
+        fail(place, "expected charge and radius behind column 54, got " + inQuotes(line));
+    const auto [charge, radius] =
+        numbersFrom(fields, 0, std::array<const char*, 2>{"charge", "radius"}, place);
+    charges.push_back(float(charge));
+    atom.element = element;
+    atom.radius = radius;
+    tree.add(atom);
+}
+
 /// The atom that a name in an xyzrn file stands for; see readStructure().
 Identity identityIn(string_view name)
 {
@@ -211,6 +240,10 @@ Structure readPqr(const std::string& text, const std::string& path)
         constexpr std::size_t leftColumns = 4; // serial, atom, residue, number
         constexpr std::size_t columns = leftColumns + names.size();
         const int element = takeElement(fields);
+        if (hasTouching(fields, columns)) { // of columns 31-54, as in a PDB file
+            addGlued(tree, place, element, charges);
+            continue;
+        }
         if (fields.size() < columns) {
             fields = splitGlued(fields, std::min(leftColumns - 1, fields.size()));
         }

@@ -38,12 +38,12 @@ std::string chosen(const std::string& text, const std::string& altloc = "")
     return names;
 }
 
-TEST(Altloc, KeepsTheHighestOccupancyOfEachAtom)
+TEST(Altloc, KeepsTheReadingOfTheLargestSum)
 {
     EXPECT_EQ(chosen(atom("N", ' ', "SER", 1, 1) + atom("CA", 'A', "SER", 1, 0.3) +
                      atom("CA", 'B', "SER", 1, 0.7) + atom("CB", 'A', "SER", 1, 0.6) +
                      atom("CB", 'B', "SER", 1, 0.4)),
-              "N CA:B CB:A");
+              "N CA:B CB:B");
 }
 
 TEST(Altloc, ATieKeepsOneConformer)
