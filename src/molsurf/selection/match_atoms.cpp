@@ -85,7 +85,7 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
     }
     if (!matched) {
         const auto hinted = std::find_if(notes.begin(), notes.end(), [](const std::string& note) {
-            return note.find("[hint: ") != std::string::npos;
+            return note.find("hint: ") != std::string::npos;
         });
         const std::string note = hinted == notes.end() ? "" : ": " + *hinted;
         failEmpty(structure, expression, selection.hint.empty() ? note : selection.hint);

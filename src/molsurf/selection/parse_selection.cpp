@@ -706,7 +706,9 @@ private:
     SubTree phrase()
     {
         const std::string text = phraseText();
-        if (text.empty()) failAtOperand();
+        const std::size_t bracket = text.find('('); // of a function, as in sqr(x)
+        if (text.empty() || (bracket != none && !foreignWord(text.substr(0, bracket)).empty()))
+            failAtOperand();
         // A name alone may be a word with a slip.
         const bool name = text.find_first_of("/[(;:,*!\"'") == none && !isDigit(text[0]) &&
                           text[0] != '-' && text[0] != '.';

@@ -257,7 +257,7 @@ const ForeignWord foreignWords[] = {
     {"in like", "the names and numbers themselves, as chain A and resid 10"},
     {"first last rank", "index 0, or serial with the number of the file"},
     {"ss secondary secstr sst helix alpha_helix helix_3_10 pi_helix sheet beta_sheet betasheet "
-     "extended_beta bridge_beta turn coil",
+     "extended_beta bridge_beta turn coil structure",
      "resid with the numbers of the residues, as resid 10 to 20"},
     {"pepseq ps. sequence rescode resc code", "resname with names of three letters"},
     {"resseq residue resindex resindices ridx", "resid with the numbers of the file"},
@@ -286,6 +286,7 @@ const ForeignWord foreignWords[] = {
      "resname with the names"},
     {"stdaa", "*;protein"},
     {"nonstdaa", "modified and protein"},
+    {"symbol", "element"},
     {"metals metal", "ion, or element ZN FE"},
     {"donors don. donor acceptors acc. acceptor", "element N O"},
     {"guide", "calpha"},

@@ -38,7 +38,7 @@ public:
         const NameClass kind = nameClass(residueOf(structure_, at(0)).name);
         if (isLink(kind)) return {};
         single_ = kind == NameClass::Water || kind == NameClass::Ion;
-        if (structure_.placed && !single_) sortIntoCells();
+        if (structure_.placed) sortIntoCells();
         std::vector<std::size_t> out;
         std::size_t last = 0; // that a bond joins to the molecule
         for (std::size_t i = 0; i < atoms_.size(); ++i) {
@@ -95,12 +95,6 @@ private:
     std::size_t lastPartner(std::size_t i) const
     {
         if (!structure_.placed) return i;
-        constexpr std::size_t sites = 8; // of a water, at most
-        if (single_) {
-            std::size_t last = std::min(i + sites, atoms_.size() - 1);
-            while (last > i && !areBonded(i, last)) --last;
-            return last;
-        }
         std::size_t best = i;
         const Cell middle = cellOf(at(i));
         for (int n = 0; n < 27; ++n) {
@@ -190,8 +184,8 @@ bool separateMolecules(Structure& structure)
 std::size_t hashOf(const Residue& residue)
 {
     std::size_t hash = std::hash<std::string>()(residue.name);
-    for (const std::int32_t part : {residue.chain, residue.asym, residue.segment, residue.number,
-                                    std::int32_t(residue.insertionCode)})
+    for (const std::int32_t part :
+         {residue.chain, residue.asym, residue.number, std::int32_t(residue.insertionCode)})
         hash = (hash ^ std::size_t(std::uint32_t(part))) * 0x9e3779b97f4a7c15u;
     return hash;
 }
@@ -217,7 +211,7 @@ void AtomTree::startModel(int number)
 bool AtomTree::isSame(const Residue& a, const Residue& b) const
 {
     return a.number == b.number && a.insertionCode == b.insertionCode && a.chain == b.chain &&
-           a.asym == b.asym && a.segment == b.segment && a.name == b.name;
+           a.asym == b.asym && a.name == b.name;
 }
 
 Residue AtomTree::residueOf(const AtomLine& atom)
@@ -321,7 +315,8 @@ void AtomTree::add(const AtomLine& atom)
 {
     if (out_.models.empty()) startModel(1);
     Residue residue = residueOf(atom);
-    if (runBegin_ == out_.atoms.size() || !isSame(out_.residues.back(), residue))
+    if (runBegin_ == out_.atoms.size() || !isSame(out_.residues.back(), residue) ||
+        out_.residues.back().segment != residue.segment)
         startResidue(std::move(residue));
     out_.atoms.push_back({atom.position, std::string(atom.name),
                           std::int32_t(out_.residues.size()) - 1, elementOf(atom), atom.altloc,

@@ -21,7 +21,7 @@ namespace molsurf
 struct AtomLine {
     std::string_view chain, residue, name;
     std::string_view asym;    ///< label_asym_id; empty: the chain
-    std::string_view segment; ///< of one chain; residues of two segments are different ones
+    std::string_view segment; ///< of one chain
     int number = 0;           ///< of the residue
     char insertionCode = ' ';
     bool hetatm = false;
@@ -50,9 +50,10 @@ inline AtomLine unknownLigandAtom(const openvdb::Vec3d& position)
     return atom;
 }
 
-/// Makes a structure atom by atom, in the order of the file. A residue has one chain, segment,
-/// number, insertion code and name, and no name of an atom twice in one location:
-/// - Atoms that come later in the model belong to the first residue with these that has none of
+/// Makes a structure atom by atom, in the order of the file. A residue has one chain, number,
+/// insertion code and name, and no name of an atom twice in one location:
+/// - Atoms that come later in the model, or of another segment, belong to the first residue with
+/// these that has none of
 ///   their names. So do hydrogens at the end of a file, alternatives block by block, and the atoms
 ///   of chains that alternate.
 /// - In molecules other than links of chains another residue begins where an atom like the first

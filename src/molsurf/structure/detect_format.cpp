@@ -301,7 +301,7 @@ const Refusal refusals[] = {
      " [hint: MDAnalysis turns it into FILE.pdb]", isCharmmCard},
     {"a file of Tinker", " [hint: Open Babel turns it, as txyz, into FILE.pdb]", isTinker},
     {"a file of LAMMPS, which has no names",
-     " [hint: MDAnalysis turns it into FILE.pdb, with elements by types]",
+     " [hint: ASE turns a data file with masses into FILE.xyz]",
      [](const Sample& s) { return has(s, " xlo xhi") || has(s, "ITEM: TIMESTEP"); }},
     {"a pointer of Git LFS in the place of the file", " [hint: git lfs pull]",
      [](const Sample& s) { return beginsAs(s, "version https://git-lfs"); }},

@@ -121,19 +121,6 @@ void readOperators(Block& block, const std::string& category, const char* furthe
     }
 }
 
-std::vector<std::string> splitList(const std::string& list)
-{
-    std::vector<std::string> names;
-    std::size_t begin = 0;
-    while (begin <= list.size()) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string_view name = trimmed(std::string_view(list).substr(begin, end - begin));
-        if (!name.empty() && name != "\n") names.emplace_back(name);
-        begin = end + 1;
-    }
-    return names;
-}
-
 /// Chains that share an operator expression become one part, so that a copy is whole.
 std::vector<Assembly> readAssemblies(Block& block)
 {
@@ -166,7 +153,7 @@ std::vector<Assembly> readAssemblies(Block& block)
                 count += assembly.parts.back().operators.size();
             }
             auto& list = assembly.parts[known.first->second].chains;
-            for (std::string& chain : splitList(chains)) list.push_back(std::move(chain));
+            for (const std::string_view chain : splitNames(chains)) list.emplace_back(chain);
         } catch (const Error& error) {
             partOf.erase(known.first);
             assembly.problem = error.what();
@@ -339,29 +326,11 @@ public:
     Structure finish() { return tree_.finish(); }
 
 private:
-    enum Column {
-        Group,
-        Id,
-        Symbol,
-        Atom_,
-        AuthorAtom,
-        Alternate,
-        ResidueName,
-        AuthorResidue,
-        Asym,
-        AuthorChain,
-        Entity,
-        Sequence,
-        Number,
-        Code,
-        X,
-        Y,
-        Z,
-        Occupancy,
-        BFactor,
-        ModelNumber,
-        Count
-    };
+    using Column = std::size_t;
+    static constexpr Column Group = 0, Id = 1, Symbol = 2, Atom_ = 3, AuthorAtom = 4, Alternate = 5,
+                            ResidueName = 6, AuthorResidue = 7, Asym = 8, AuthorChain = 9,
+                            Entity = 10, Sequence = 11, Number = 12, Code = 13, X = 14, Y = 15,
+                            Z = 16, Occupancy = 17, BFactor = 18, ModelNumber = 19, Count = 20;
     static constexpr std::array<const char*, Count> names{"group_PDB",       "id",
                                                           "type_symbol",     "label_atom_id",
                                                           "auth_atom_id",    "label_alt_id",
@@ -449,7 +418,7 @@ private:
 };
 
 /// The atoms of a document. A model that comes back goes on.
-Structure atomsOf(Block& block, const std::string& path, const Progress& progress)
+Structure atomsOf(Block& block, const std::string& path)
 {
     std::vector<std::string> tags, values;
     if (gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop()) {
@@ -467,26 +436,21 @@ Structure atomsOf(Block& block, const std::string& path, const Progress& progres
     const std::size_t width = tags.size();
     AtomSite atoms(tags, block, path);
     atoms.reserve(values.size() / width);
-    std::map<int, std::vector<std::size_t>> models; // first values of their rows
-    std::vector<int> order;
-    const auto found = std::find_if(tags.begin(), tags.end(), [](const std::string& tag) {
+    const auto model = std::find_if(tags.begin(), tags.end(), [](const std::string& tag) {
         return lowered(tag) == "_atom_site.pdbx_pdb_model_num";
     });
+    std::map<std::string, std::size_t> known;              // models by their order
+    std::vector<std::pair<std::size_t, std::size_t>> rows; // model and first value
     for (std::size_t at = 0; at + width <= values.size(); at += width) {
-        int model = 1;
-        if (found != tags.end())
-            parseInteger(values[at + std::size_t(found - tags.begin())], model);
-        std::vector<std::size_t>& rows = models[model];
-        if (rows.empty()) order.push_back(model);
-        rows.push_back(at);
+        const std::string number =
+            model == tags.end() ? "" : values[at + std::size_t(model - tags.begin())];
+        rows.emplace_back(known.emplace(number, known.size()).first->second, at);
     }
+    std::sort(rows.begin(), rows.end());
     Fields fields(width);
-    for (const int model : order) {
-        stopIfCancelled(progress);
-        for (const std::size_t at : models[model]) {
-            std::copy_n(values.begin() + std::ptrdiff_t(at), width, fields.begin());
-            atoms.add(fields);
-        }
+    for (const auto& [order, at] : rows) {
+        std::copy_n(values.begin() + std::ptrdiff_t(at), width, fields.begin());
+        atoms.add(fields);
     }
     return atoms.finish();
 }
@@ -648,10 +612,9 @@ Structure readMmcif(std::string text, const std::string& path, const Progress& p
             return std::move(*out);
         gemmi::cif::Document document = parseCif(text, path);
         std::string().swap(text);
-        return *readDocument(document, path, progress,
-                             [&](Block& block) -> std::optional<Structure> {
-                                 return atomsOf(block, path, progress);
-                             });
+        return *readDocument(
+            document, path, progress,
+            [&](Block& block) -> std::optional<Structure> { return atomsOf(block, path); });
     });
 }
 
@@ -660,10 +623,9 @@ Structure readBinaryCif(std::string bytes, const std::string& path, const Progre
     return reading(path, [&] {
         gemmi::cif::Document document = decodeBinaryCif(bytes, path, isRead);
         std::string().swap(bytes);
-        return *readDocument(document, path, progress,
-                             [&](Block& block) -> std::optional<Structure> {
-                                 return atomsOf(block, path, progress);
-                             });
+        return *readDocument(
+            document, path, progress,
+            [&](Block& block) -> std::optional<Structure> { return atomsOf(block, path); });
     });
 }
 

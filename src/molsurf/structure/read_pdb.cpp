@@ -18,9 +18,8 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
-#include <tuple>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace molsurf
@@ -38,60 +37,34 @@ int modelNumber(string_view line, int previous)
     return number;
 }
 
-/// The atoms of a model by chain, residue and name.
-class AtomNames
+/// A number for the chain, residue and name of an atom.
+std::size_t hashOf(const Structure& structure, const Atom& atom)
 {
-public:
-    AtomNames(const Structure& structure, const Model& model)
-    {
-        for (std::size_t i = model.begin; i < model.end; ++i)
-            names_.insert(nameOf(structure, structure.atoms[i]));
-    }
-
-    /// Whether another model has at least half of these atoms, or these half of its own.
-    bool areOf(const Structure& structure, const Model& model) const
-    {
-        std::size_t same = 0;
-        for (std::size_t i = model.begin; i < model.end; ++i)
-            same += names_.count(nameOf(structure, structure.atoms[i]));
-        return 2 * same >= std::min(names_.size(), model.end - model.begin);
-    }
-
-private:
-    using Name = std::tuple<std::string, std::string, int, char, std::int32_t>;
-    static Name nameOf(const Structure& structure, const Atom& atom)
-    {
-        const Residue& r = residueOf(structure, atom);
-        return {atom.name, r.name, r.number, r.insertionCode, r.chain};
-    }
-
-    std::set<Name> names_;
-};
-
-/// Whether two models have the same atoms in the same order.
-bool areAlike(const Structure& structure, const Model& a, const Model& b)
-{
-    const auto at = [&](std::size_t i) { return structure.atoms.begin() + std::ptrdiff_t(i); };
-    return std::equal(
-        at(a.begin), at(a.end), at(b.begin), at(b.end), [&](const Atom& one, const Atom& other) {
-            const Residue &r = residueOf(structure, one), &s = residueOf(structure, other);
-            return one.name == other.name && r.number == s.number && r.chain == s.chain &&
-                   r.name == s.name;
-        });
+    const Residue& r = residueOf(structure, atom);
+    const std::hash<std::string> ofText;
+    std::size_t hash = ofText(atom.name) * 31 + ofText(r.name);
+    for (const int part : {r.number, int(r.insertionCode), int(r.chain)})
+        hash = (hash ^ std::size_t(part)) * 0x9e3779b97f4a7c15u;
+    return hash;
 }
 
-/// END ends a frame, which has the atoms of the first one. What has others is another molecule of
+/// END ends a frame, which has at least half of the atoms of the first one, or these half of its
+/// own. What has others is another molecule of
 /// the same structure, as behind the END of a receptor the ligand that cat appended.
 void joinMolecules(Structure& structure)
 {
     std::vector<Model>& models = structure.models;
     if (models.size() < 2) return;
-    std::optional<AtomNames> first;
+    const auto at = [&](std::size_t i) { return structure.atoms.begin() + std::ptrdiff_t(i); };
+    std::unordered_set<std::size_t> first;
+    for (std::size_t i = models[0].begin; i < models[0].end; ++i)
+        first.insert(hashOf(structure, structure.atoms[i]));
     std::vector<Model> frames{models[0]};
     for (std::size_t m = 1; m < models.size(); ++m) {
-        const bool alike = areAlike(structure, models[0], models[m]);
-        if (!alike && !first) first.emplace(structure, models[0]);
-        if (alike || first->areOf(structure, models[m]))
+        const auto same = std::count_if(at(models[m].begin), at(models[m].end), [&](const Atom& a) {
+            return first.count(hashOf(structure, a)) > 0;
+        });
+        if (2 * std::size_t(same) >= std::min(first.size(), models[m].end - models[m].begin))
             frames.push_back({int(frames.size()) + 1, models[m].begin, models[m].end});
         else
             frames.back().end = models[m].end;
