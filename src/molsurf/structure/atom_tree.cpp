@@ -192,6 +192,33 @@ std::size_t hashOf(const Residue& residue)
 
 } // namespace
 
+void joinModels(Structure& structure)
+{
+    std::vector<Model> joined;
+    std::vector<std::pair<std::size_t, std::size_t>> order; // place of the model, atom
+    for (const Model& model : structure.models) {
+        auto same = std::find_if(joined.begin(), joined.end(),
+                                 [&](const Model& m) { return m.number == model.number; });
+        if (same == joined.end()) same = joined.insert(joined.end(), {model.number, 0, 0});
+        for (std::size_t i = model.begin; i < model.end; ++i)
+            order.emplace_back(same - joined.begin(), i);
+    }
+    if (joined.size() == structure.models.size()) return;
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Atom> atoms;
+    std::vector<std::int32_t> serials;
+    for (const auto& [place, i] : order) {
+        if (joined[place].end == 0) joined[place].begin = atoms.size();
+        atoms.push_back(std::move(structure.atoms[i]));
+        if (!structure.serials.empty()) serials.push_back(structure.serials[i]);
+        joined[place].end = atoms.size();
+    }
+    structure.atoms = std::move(atoms);
+    structure.serials = std::move(serials);
+    structure.models = std::move(joined);
+}
+
 void AtomTree::startModel(int number)
 {
     endRun();

@@ -50,6 +50,9 @@ inline AtomLine unknownLigandAtom(const openvdb::Vec3d& position)
     return atom;
 }
 
+/// Joins models of one number, whose places in the order are those of their first atoms.
+void joinModels(Structure& structure);
+
 /// Makes a structure atom by atom, in the order of the file. A residue has one chain, number,
 /// insertion code and name, and no name of an atom twice in one location:
 /// - Atoms that come later in the model, or of another segment, belong to the first residue with

@@ -7,7 +7,6 @@
 #include "molsurf/structure/assembly_operators.h"
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/binary_cif.h"
-#include "molsurf/structure/cif_rows.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/ihm_spheres.h"
 #include "molsurf/structure/residue_bonds.h"
@@ -26,7 +25,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -274,8 +272,7 @@ std::string_view textOf(std::string_view value, std::string& buffer)
 class AtomSite
 {
 public:
-    AtomSite(const std::vector<std::string>& tags, Block& block, const std::string& path)
-        : path_(path), entities_(block)
+    AtomSite(const std::vector<std::string>& tags, const std::string& path) : path_(path)
     {
         for (std::size_t c = 0; c < columns_.size(); ++c) {
             const auto found = std::find_if(tags.begin(), tags.end(), [&](const std::string& tag) {
@@ -292,11 +289,10 @@ public:
         if (!has(Number) && !has(Sequence)) failAt(path_, "_atom_site has no column auth_seq_id");
     }
 
-    /// @return false if a model comes back
-    bool add(const Fields& row)
+    void add(const Fields& row)
     {
         row_ = &row;
-        if (!startModel()) return false;
+        startModel();
         ++rows_;
         AtomLine atom;
         atom.name = first(AuthorAtom, Atom_);
@@ -306,10 +302,10 @@ public:
         atom.number = number(atom);
         if (const std::string_view code = text(Code); !code.empty()) atom.insertionCode = code[0];
         atom.hetatm = text(Group).substr(0, 1) == "H";
-        atom.entity = entities_.of(std::string(atom.asym), std::string(text(Entity)));
         // What stands in no sequence is no link of the chain.
         const bool placeless = has(Sequence) && text(Sequence).empty() && atom.hetatm;
-        if (atom.entity == EntityHint::Polymer && placeless) atom.entity = EntityHint::None;
+        atom.entity = placeless ? EntityHint::None : EntityHint::Polymer;
+        if (asym_ != atom.asym) entities_.emplace(asym_ = atom.asym, text(Entity));
         atom.altloc = altloc();
         const std::string_view symbol = text(Symbol);
         const auto letters = std::find_if_not(symbol.begin(), symbol.end(), isLetter);
@@ -319,11 +315,25 @@ public:
         atom.bFactor = float(value(BFactor, 0.0));
         parseInteger(text(Id), atom.serial);
         tree_.add(atom);
-        return true;
     }
 
     void reserve(std::size_t atoms) { tree_.reserve(atoms); }
-    Structure finish() { return tree_.finish(); }
+
+    /// The structure of all rows, with the entities of the block that has them.
+    Structure finish(Block& block)
+    {
+        Structure out = tree_.finish();
+        EntityTypes types(block);
+        std::vector<EntityHint> hints;
+        for (const std::string& asym : out.asyms) hints.push_back(types.of(asym, entities_[asym]));
+        for (Residue& residue : out.residues) {
+            const EntityHint hint = hints[std::size_t(residue.asym)];
+            const bool placeless = residue.entity == EntityHint::None;
+            residue.entity = hint == EntityHint::Polymer && placeless ? EntityHint::None : hint;
+        }
+        joinModels(out);
+        return out;
+    }
 
 private:
     using Column = std::size_t;
@@ -366,15 +376,13 @@ private:
         return out;
     }
 
-    bool startModel()
+    void startModel()
     {
         int number = model_ == 0 ? 1 : model_;
         parseInteger(text(ModelNumber), number);
-        if (rows_ > 0 && number == model_) return true;
-        if (!models_.insert(number).second) return false;
+        if (number == model_) return;
         tree_.startModel(model_ = number);
         count_ = 0;
-        return true;
     }
 
     /// The author's number; where it is missing that of the sequence, and without either the
@@ -405,75 +413,105 @@ private:
     }
 
     const std::string& path_;
-    EntityTypes entities_;
     AtomTree tree_;
+    std::string asym_;                            ///< of the row before
+    std::map<std::string, std::string> entities_; ///< that rows name, by label chain
     std::array<std::size_t, Count> columns_;
     std::array<std::string, Count> buffers_; ///< of texts in quotes
     std::size_t width_ = 0, rows_ = 0;
     const Fields* row_ = nullptr;
-    std::set<int> models_;
     int model_ = 0;
     std::string counted_, firstName_; ///< chain and first atom of the molecule that is counted
     int count_ = 0;
 };
 
-/// The atoms of a document. A model that comes back goes on.
+/// The atoms of a document: rows of a loop, or pairs, which are a loop of one row.
 Structure atomsOf(Block& block, const std::string& path)
 {
     std::vector<std::string> tags, values;
     if (gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop()) {
         tags = loop->tags;
         values = std::move(loop->values);
-    } else { // pairs are a loop of one row
-        for (const gemmi::cif::Item& item : block.items) {
-            if (item.type != gemmi::cif::ItemType::Pair ||
-                !gemmi::istarts_with(item.pair[0], "_atom_site."))
-                continue;
-            tags.push_back(item.pair[0]);
-            values.push_back(item.pair[1]);
-        }
     }
-    const std::size_t width = tags.size();
-    AtomSite atoms(tags, block, path);
-    atoms.reserve(values.size() / width);
-    const auto model = std::find_if(tags.begin(), tags.end(), [](const std::string& tag) {
-        return lowered(tag) == "_atom_site.pdbx_pdb_model_num";
-    });
-    std::map<std::string, std::size_t> known;              // models by their order
-    std::vector<std::pair<std::size_t, std::size_t>> rows; // model and first value
-    for (std::size_t at = 0; at + width <= values.size(); at += width) {
-        const std::string number =
-            model == tags.end() ? "" : values[at + std::size_t(model - tags.begin())];
-        rows.emplace_back(known.emplace(number, known.size()).first->second, at);
+    for (const gemmi::cif::Item& item : block.items) {
+        if (item.type != gemmi::cif::ItemType::Pair ||
+            !gemmi::istarts_with(item.pair[0], "_atom_site."))
+            continue;
+        tags.push_back(item.pair[0]);
+        values.push_back(item.pair[1]);
     }
-    std::sort(rows.begin(), rows.end());
-    Fields fields(width);
-    for (const auto& [order, at] : rows) {
-        std::copy_n(values.begin() + std::ptrdiff_t(at), width, fields.begin());
+    AtomSite atoms(tags, path);
+    atoms.reserve(values.size() / tags.size());
+    Fields fields(tags.size());
+    for (std::size_t at = 0; at + fields.size() <= values.size(); at += fields.size()) {
+        std::copy_n(values.begin() + std::ptrdiff_t(at), fields.size(), fields.begin());
         atoms.add(fields);
     }
-    return atoms.finish();
+    return atoms.finish(block);
 }
 
-/// The atoms of rows in a text; nullopt if one is more than values on a line, or if a model comes
-/// back.
-std::optional<Structure> atomsOf(const std::string& text, const CifRows& rows, Block& block,
-                                 const std::string& path, const Progress& progress)
-{
-    AtomSite atoms(rows.tags, block, path);
-    const std::string_view all = std::string_view(text).substr(rows.begin, rows.end - rows.begin);
-    atoms.reserve(std::size_t(std::count(all.begin(), all.end(), '\n')) + 1);
-    Fields fields;
-    for (LineReader lines(all); lines.next();) {
-        constexpr std::size_t often = 65536;
-        if (lines.number() % often == 0) stopIfCancelled(progress);
-        if (trimmed(lines.line()).empty()) continue;
-        if (!splitRow(lines.line(), fields) || fields.size() != rows.tags.size() ||
-            !atoms.add(fields))
-            return std::nullopt;
+/// A document of which the first table of atoms is read row by row, and keeps the first row alone:
+/// all of its values take twelve times the memory of the text.
+struct RowDocument : gemmi::cif::Document {
+    RowDocument(const std::string& file, const Progress& reader) : path(file), progress(reader) {}
+
+    const std::string& path;
+    const Progress& progress;
+    std::optional<AtomSite> atoms;
+    std::size_t likely = 0;       ///< number of atoms
+    std::size_t blockOfAtoms = 0; ///< counted from 1; 0: none yet
+    bool inAtoms = false;         ///< whether the present loop is a table of atoms
+    Fields row;
+    std::size_t rows = 0;
+
+    /// Takes a value of the present loop.
+    void take(std::string_view value)
+    {
+        gemmi::cif::Loop& loop = items_->back().loop;
+        if (loop.values.empty()) {
+            inAtoms = loop.has_tag("_atom_site.Cartn_x");
+            row.clear();
+        }
+        if (!inAtoms || loop.values.size() < loop.tags.size()) loop.values.emplace_back(value);
+        if (!inAtoms) return;
+        if (!atoms) {
+            atoms.emplace(loop.tags, path);
+            atoms->reserve(likely);
+        }
+        if (blockOfAtoms == 0) blockOfAtoms = blocks.size();
+        row.push_back(value);
+        if (row.size() < loop.tags.size()) return;
+        constexpr std::size_t often = 65536; // rows
+        if (++rows % often == 0) stopIfCancelled(progress);
+        if (blockOfAtoms == blocks.size()) atoms->add(row);
+        row.clear();
     }
-    return atoms.finish();
-}
+};
+
+template<typename Rule>
+struct RowAction : gemmi::cif::Action<Rule> {
+};
+
+template<>
+struct RowAction<gemmi::cif::rules::loop_value> {
+    template<typename Input>
+    static void apply(const Input& in, RowDocument& out)
+    {
+        out.take({in.begin(), in.size()});
+    }
+};
+
+template<>
+struct RowAction<gemmi::cif::rules::loop> {
+    template<typename Input>
+    static void apply(const Input& in, RowDocument& out)
+    {
+        if (out.inAtoms && !out.row.empty())
+            throw tao::pegtl::parse_error("Wrong number of values in the loop", in);
+        out.inAtoms = false;
+        gemmi::cif::Action<gemmi::cif::rules::loop>::apply(in, out);
+    }
+};
 
 /// Refuses names that stand twice, as gemmi::cif::read_memory() does. That empties one table for
 /// each block, which takes the square of their number.
@@ -492,37 +530,35 @@ void checkDuplicates(gemmi::cif::Document& document)
     }
 }
 
-gemmi::cif::Document parseCif(const std::string& text, const std::string& path)
+void parseCif(const std::string& text, const std::string& path, RowDocument& document)
 {
     tao::pegtl::memory_input<> in(text.data(), text.size(), path);
-    gemmi::cif::Document document;
     document.source = path;
-    gemmi::cif::parse_input(document, in);
+    tao::pegtl::parse<gemmi::cif::rules::file, RowAction, gemmi::cif::Errors>(in, document);
     gemmi::cif::check_for_missing_values(document);
     checkDuplicates(document);
-    return document;
 }
 
 /// The structure of a document that is parsed.
-/// @param[in] rows  the atoms of the table _atom_site of a block, or nullopt
-/// @return nullopt if rows() returns it
+/// @param[in] rows  gives the atoms of the table _atom_site of a block
 template<typename Rows>
-std::optional<Structure> readDocument(gemmi::cif::Document& document, const std::string& path,
-                                      const Progress& progress, const Rows& rows)
+Structure readDocument(gemmi::cif::Document& document, const std::string& path,
+                       const Progress& progress, const Rows& rows)
 {
     stopIfCancelled(progress);
     std::vector<std::string> warnings;
     Block& block = blockWithAtoms(document, path, warnings);
-    std::optional<Structure> out = Structure();
-    if (block.has_tag("_atom_site.Cartn_x")) out = rows(block);
-    if (!out) return std::nullopt;
+    Structure out;
+    if (block.has_tag("_atom_site.Cartn_x"))
+        out = rows(block);
+    else if (!hasSpheres(block))
+        out = readSmallMolecule(block, path);
     stopIfCancelled(progress);
-    if (out->atoms.empty() && !hasSpheres(block)) out = readSmallMolecule(block, path);
-    out->assemblies = readAssemblies(block);
-    out->plddt = namesPlddt(block);
-    out->bonds = readBonds(block);
-    if (hasSpheres(block)) addSpheres(block, path, *out);
-    out->warnings.insert(out->warnings.begin(), warnings.begin(), warnings.end());
+    out.assemblies = readAssemblies(block);
+    out.plddt = namesPlddt(block);
+    out.bonds = readBonds(block);
+    if (hasSpheres(block)) addSpheres(block, path, out);
+    out.warnings.insert(out.warnings.begin(), warnings.begin(), warnings.end());
     return out;
 }
 
@@ -558,6 +594,11 @@ void checkLines(const std::string& text, const std::string& path)
                            std::to_string(lines.line().size()));
 }
 
+bool isAtomRow(std::string_view line)
+{
+    return line.substr(0, 5) == "ATOM " || line.substr(0, 7) == "HETATM ";
+}
+
 /// Calls read(), whose errors name the file.
 template<typename Read>
 Structure reading(const std::string& path, const Read& read)
@@ -573,48 +614,30 @@ Structure reading(const std::string& path, const Read& read)
     }
 }
 
-/// A text whose rows of atoms are read line by line: a document of all of them takes twelve times
-/// the memory of the text. Nothing if it has to be read as a whole.
-std::optional<Structure> readLineByLine(const std::string& text, const std::string& path,
-                                        const Progress& progress)
-{
-    const std::optional<CifRows> rows = findCifRows(text);
-    if (!rows) return std::nullopt;
-    try {
-        const std::string rest = text.substr(0, rows->firstEnd) + text.substr(rows->end);
-        gemmi::cif::Document document = parseCif(rest, path);
-        return readDocument(document, path, progress,
-                            [&](Block& block) -> std::optional<Structure> {
-                                const gemmi::cif::Loop* const loop =
-                                    block.find_loop("_atom_site.Cartn_x").get_loop();
-                                if (!loop || loop->length() != 1)
-                                    return std::nullopt; // the rows are another loop's
-                                return atomsOf(text, *rows, block, path, progress);
-                            });
-    } catch (const std::runtime_error&) { // read as a whole it gives the line
-        return std::nullopt;
-    }
-}
-
 } // namespace
 
 double bytesForMmcif(const std::string& text)
 {
     constexpr double ofStructure = 3.0;
-    return (findCifRows(text) ? ofStructure : cifDocumentPerByte) * double(text.size());
+    double bytes = 0.0;
+    for (LineReader lines(text); lines.next();) {
+        const bool atom = isAtomRow(lines.line());
+        bytes += (atom ? ofStructure : cifDocumentPerByte) * double(lines.line().size());
+    }
+    return bytes;
 }
 
 Structure readMmcif(std::string text, const std::string& path, const Progress& progress)
 {
     checkLines(text, path);
     return reading(path, [&] {
-        if (std::optional<Structure> out = readLineByLine(text, path, progress))
-            return std::move(*out);
-        gemmi::cif::Document document = parseCif(text, path);
-        std::string().swap(text);
-        return *readDocument(
-            document, path, progress,
-            [&](Block& block) -> std::optional<Structure> { return atomsOf(block, path); });
+        RowDocument document(path, progress);
+        for (LineReader lines(text); lines.next();) document.likely += isAtomRow(lines.line());
+        parseCif(text, path, document);
+        return readDocument(document, path, progress, [&](Block& block) {
+            const bool own = document.blockOfAtoms == std::size_t(&block - &document.blocks[0]) + 1;
+            return own ? document.atoms->finish(block) : atomsOf(block, path);
+        });
     });
 }
 
@@ -623,9 +646,8 @@ Structure readBinaryCif(std::string bytes, const std::string& path, const Progre
     return reading(path, [&] {
         gemmi::cif::Document document = decodeBinaryCif(bytes, path, isRead);
         std::string().swap(bytes);
-        return *readDocument(
-            document, path, progress,
-            [&](Block& block) -> std::optional<Structure> { return atomsOf(block, path); });
+        return readDocument(document, path, progress,
+                            [&](Block& block) { return atomsOf(block, path); });
     });
 }
 
