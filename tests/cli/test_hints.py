@@ -166,9 +166,6 @@ CASES = {
          f"vdb_molsurf 1crn.pdb --select 'protein and not name C*' {FAST} -o b.ply"),
         ("names have the case of the file: resname THR", f"vdb_molsurf 1crn.pdb --select 'resname thr ALA' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'resname THR ALA' {FAST} -o b.ply")],
-    "selection/select_balls.cpp": [
-        ('--select "not resname ATP" leaves them out', f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' {FAST} -o a.json",
-         f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' --select 'not resname ATP' {FAST} -o b.json")],
     "selection/parse_selection.cpp": [
         ("not known here; write within 2 of S", f"vdb_molsurf 1crn.pdb --select 'name SG extend 1' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'within 2 of name SG' {FAST} -o a.ply"),
@@ -291,6 +288,8 @@ CASES = {
          "sed 's/level set/level sea/g; s/surface/surfeit/g' a.vdb > b.vdb; vdb_molsurf compare b.vdb one.xyzr",
          "vdb_molsurf info b.vdb | grep surfeit")],
     "selection/select_balls.cpp": [
+        ('--select "not resname ATP" leaves them out', f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' {FAST} -o a.json",
+         f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' --select 'not resname ATP' {FAST} -o b.json"),
         ("--waters keeps it", f"vdb_molsurf 1a8o.cif.gz --select water {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --select water --waters {FAST} -o a.ply"),
         ("--assembly 1", f"vdb_molsurf moved.pdb --instances {FAST} -o a.glb",

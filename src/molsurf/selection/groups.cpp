@@ -108,7 +108,12 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         const std::size_t length =
             std::size_t(columns[end - 1].data() + columns[end - 1].size() - first);
         if (length <= longest) rule.select = std::string(first, length);
-        if (end > 2 && !hasSelectionWords(rule.select)) { // then blanks part it from a wrong colour
+        const auto isWord = [](std::string_view text) {
+            return text.find_first_of("()|&<>=") != std::string_view::npos ||
+                   (text.size() > 1 && selectionWord(text));
+        };
+        const auto last = columns.begin() + std::ptrdiff_t(end);
+        if (end > 2 && std::none_of(columns.begin() + 1, last, isWord)) { // a wrong colour
             rule.select = columns[1];
             end = 2;
         }

@@ -680,7 +680,7 @@ private:
     /// Whether "!A/10" stands here, all chains but A, and not the word `not`.
     bool isInvertedPhrase() const
     {
-        return in_.peek() == '!' && phraseText().find_first_of("/;[") != none;
+        return in_.peek() == '!' && in_.peek(1) != '(' && phraseText().find_first_of("/;[") != none;
     }
 
     /// Whether nothing but | is beside what stands here.

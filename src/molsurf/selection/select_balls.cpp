@@ -605,58 +605,47 @@ BallSet readAtoms(FileContent file, const SelectOptions& options, double probe,
 namespace
 {
 
-/// The places of the atoms that a pocket is at.
+/// Adds the places of the atoms that a pocket is at, and warns if ligands among them are a part of
+/// the molecule, which fill the pocket.
 /// @throws Error(ErrorKind::Usage) if there are none
-std::vector<openvdb::Vec3d> pocketPlaces(const Structure& structure, const SelectOptions& options,
-                                         const Model& model)
-{
-    std::vector<openvdb::Vec3d> out;
-    if (options.pocketAt.empty()) return out;
-    try {
-        const AtomMatch match = matchAtoms(structure, options.pocketAt);
-        for (std::size_t i = model.begin; i < model.end; ++i)
-            if (match.atoms[i]) out.push_back(structure.atoms[i].position);
-    } catch (const Error& error) {
-        throw Error(ErrorKind::Usage, std::string("`pocketAt`: ") + error.what());
-    }
-    if (out.empty())
-        throw Error(ErrorKind::Usage, "`pocketAt`: selection " + inQuotes(options.pocketAt) +
-                                          " matches no atom of model " +
-                                          std::to_string(model.number));
-    return out;
-}
-
-/// Warns if the ligand that marks a pocket is a part of the molecule, which fills the pocket.
-void warnOfFilledPocket(const Structure& structure, const SelectOptions& options,
-                        const Model& model, BallSet& out)
+void addPocketPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
+                     BallSet& out)
 {
     if (options.pocketAt.empty()) return;
     std::vector<char> used(structure.atoms.size());
     for (const Ball& ball : out.balls) used[std::size_t(ball.atom)] = 1;
-    const AtomMatch match = matchAtoms(structure, options.pocketAt);
     std::set<std::string> names;
-    std::size_t count = 0;
-    for (std::size_t i = model.begin; i < model.end; ++i) {
-        const Residue& residue = residueOf(structure, structure.atoms[i]);
-        if (!match.atoms[i] || !used[i] || !residue.hetero()) continue;
-        ++count;
-        names.insert(residue.name);
+    std::size_t filled = 0;
+    try {
+        const AtomMatch match = matchAtoms(structure, options.pocketAt);
+        for (std::size_t i = model.begin; i < model.end; ++i) {
+            if (!match.atoms[i]) continue;
+            out.pocketAt.push_back(structure.atoms[i].position);
+            const Residue& residue = residueOf(structure, structure.atoms[i]);
+            if (!used[i] || !residue.hetero()) continue;
+            ++filled;
+            names.insert(residue.name);
+        }
+    } catch (const Error& error) {
+        throw Error(ErrorKind::Usage, std::string("`pocketAt`: ") + error.what());
     }
-    if (count == 0) return;
-    const std::string name = *names.begin();
-    out.warnings.push_back("`pocketAt`: " + counted(count, "atom", "atoms") + " of " +
-                           joined({names.begin(), names.end()}) +
-                           " are a part of the molecule, and fill the pocket [hint: `select` \"not "
-                           "resname " +
-                           name + "\" leaves them out]");
+    if (out.pocketAt.empty())
+        throw Error(ErrorKind::Usage, "`pocketAt`: selection " + inQuotes(options.pocketAt) +
+                                          " matches no atom of model " +
+                                          std::to_string(model.number));
+    if (filled > 0)
+        out.warnings.push_back("`pocketAt`: " + counted(filled, "atom", "atoms") + " of " +
+                               joined({names.begin(), names.end()}) +
+                               " are a part of the molecule, and fill the pocket [hint: `select` "
+                               "\"not resname " +
+                               *names.begin() + "\" leaves them out]");
 }
 
 /// Adds where a pocket and a pore are searched for.
 void addPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
                BallSet& out)
 {
-    out.pocketAt = pocketPlaces(structure, options, model);
-    warnOfFilledPocket(structure, options, model, out);
+    addPocketPlaces(structure, options, model, out);
     out.pore = poreWay(options.pore, structure, model);
 }
 

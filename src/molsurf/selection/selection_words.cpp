@@ -383,22 +383,6 @@ std::string foreignWord(string_view text)
     return found == all.end() ? "" : found->second;
 }
 
-bool hasSelectionWords(const std::string& text)
-{
-    constexpr const char* parts = " \t\r\n()|&!<>=";
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find_first_of(parts, begin), text.size());
-        const std::size_t next = text.find_first_not_of(' ', end);
-        const bool compared =
-            next != std::string::npos && string_view("<>=!").find(text[next]) != string_view::npos;
-        if ((end - begin > 1 || (end > begin && compared)) &&
-            selectionWord(string_view(text).substr(begin, end - begin)))
-            return true;
-        begin = end + 1;
-    }
-    return false;
-}
-
 const std::vector<std::string>& selectionWords()
 {
     static const std::vector<std::string> names = [] {

@@ -85,9 +85,6 @@ std::optional<SelectionWord> selectionWord(std::string_view text);
 /// meaning here; empty for all other texts.
 std::string foreignWord(std::string_view text);
 
-/// Whether a text has one of the words, between blanks, brackets and signs.
-bool hasSelectionWords(const std::string& text);
-
 /// All words but abbreviations, for a message that names a near one.
 const std::vector<std::string>& selectionWords();
 

@@ -143,14 +143,12 @@ int takeElement(Fields& fields)
     return element;
 }
 
-/// Whether coordinates of eight characters touch without a sign between, as "2009.6762995.631".
-bool hasTouching(const Fields& fields, std::size_t columns)
+/// Whether numbers are glued: a field has two decimal points.
+bool hasGlued(const Fields& fields)
 {
-    return fields.size() < columns &&
-           std::any_of(fields.begin(), fields.end(), [](string_view field) {
-               return std::count(field.begin(), field.end(), '.') >
-                      1 + std::count(field.begin() + !field.empty(), field.end(), '-');
-           });
+    return std::any_of(fields.begin(), fields.end(), [](string_view field) {
+        return std::count(field.begin(), field.end(), '.') > 1;
+    });
 }
 
 /// Adds an atom whose coordinates and names are those of the columns of a PDB file.
@@ -221,12 +219,11 @@ Structure readPqr(const std::string& text, const std::string& path)
         constexpr std::size_t leftColumns = 4; // serial, atom, residue, number
         constexpr std::size_t columns = leftColumns + names.size();
         const int element = takeElement(fields);
-        if (hasTouching(fields, columns)) { // of columns 31-54, as in a PDB file
+        if (fields.size() < columns || hasGlued(fields))
+            fields = splitGlued(fields, std::min(leftColumns - 1, fields.size()));
+        if (hasGlued(fields)) { // coordinates of eight characters touch: "2009.6762995.631"
             addGlued(tree, place, element, charges);
             continue;
-        }
-        if (fields.size() < columns) {
-            fields = splitGlued(fields, std::min(leftColumns - 1, fields.size()));
         }
         if (fields.size() < columns) {
             fail(place, "expected 10 or 11 columns, the last ones x y z charge radius, got " +

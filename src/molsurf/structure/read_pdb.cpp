@@ -51,7 +51,8 @@ std::size_t hashOf(const Structure& structure, const Atom& atom)
 /// END ends a frame, which has at least half of the atoms of the first one, or these half of its
 /// own. What has others is another molecule of
 /// the same structure, as behind the END of a receptor the ligand that cat appended.
-void joinMolecules(Structure& structure)
+/// @param[in] named  whether MODEL begins models: then a warning names those of other atoms
+void joinMolecules(Structure& structure, bool named)
 {
     std::vector<Model>& models = structure.models;
     if (models.size() < 2) return;
@@ -70,6 +71,12 @@ void joinMolecules(Structure& structure)
             frames.back().end = models[m].end;
     }
     if (frames.size() == models.size()) return;
+    if (named) {
+        structure.warnings.push_back(
+            counted(models.size() - frames.size(), "model has", "models have") +
+            " other atoms than the first one");
+        return;
+    }
     structure.warnings.push_back(
         "END stands between molecules of other atoms: " + std::to_string(models.size()) +
         " were read as " + counted(frames.size(), "model", "models"));
@@ -105,7 +112,7 @@ public:
         auto ncs = parseMtrix(matrices_, out.warnings);
         if (ncs) out.assemblies.push_back(std::move(*ncs));
         out.bonds = bonds();
-        if (!explicitModels_) joinMolecules(out);
+        joinMolecules(out, explicitModels_);
         if (autoDock_ && charges_.size() == out.atoms.size()) out.charges = std::move(charges_);
         return out;
     }

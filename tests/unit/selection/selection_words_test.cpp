@@ -244,6 +244,7 @@ TEST(Words, ReadOnePhraseOfGemmisAmongThem)
               countOf(codes(), "chain A and b < 20 and name CA"));
     EXPECT_EQ(countOf(codes(), "!A//CA"), countOf(codes(), "chain B and name CA")) << "not A alone";
     EXPECT_EQ(countOf(codes(), "!water"), countOf(codes(), "not water"));
+    EXPECT_EQ(countOf(codes(), "!(A//CA or B)"), countOf(codes(), "chain A and not name CA"));
     EXPECT_HAS(refusalOf("name CA and A/x"), "expected a / or ; behind the residues, got \"x\"");
 }
 

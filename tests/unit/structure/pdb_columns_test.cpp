@@ -168,6 +168,10 @@ TEST(PdbColumns, WhatStandsBehindEndIsAFrameOrAnotherMolecule)
               (Sizes{4, 3}))
         << "MODEL decides";
     const Structure s = readColumns(protein + "END\n" + ligand);
+    const Structure models =
+        readColumns("MODEL 1\n" + protein + "ENDMDL\nEND\n" + ligand + "END\n");
+    ASSERT_EQ(models.warnings.size(), 1u);
+    EXPECT_EQ(models.warnings[0], "1 model has other atoms than the first one");
     ASSERT_EQ(s.warnings.size(), 1u);
     EXPECT_EQ(s.warnings[0], "END stands between molecules of other atoms: 2 were read as 1 model");
 }

@@ -66,6 +66,12 @@ TEST(ReadPqr, SplitsCoordinatesThatTouch)
                  "ATOM      1  CA  ALA A   7    1009.6762995.631-900.515  -0.1000 1.7000\n"
                  "ATOM      2  CB  ALA A   7    1010.0002995.0003000.500  0.1000 1.5D+00\n")
             .path());
+    const std::string two =
+        "ATOM      3  CG  ALA A   7    1009.6762995.631 -90.515  -0.1000 1.7000\n"
+        "ATOM 4 CD ALA A 7 10.25-2.5 3.75 -0.1000 1.7000\n";
+    const Structure t = readStructure(TempFile("b.pqr", two).path());
+    EXPECT_EQ(t.atoms[0].position, openvdb::Vec3d(1009.676, 2995.631, -90.515));
+    EXPECT_EQ(t.atoms[1].position, openvdb::Vec3d(10.25, -2.5, 3.75)); // free of columns
     ASSERT_EQ(s.atoms.size(), 2u);
     EXPECT_EQ(s.atoms[0].position, openvdb::Vec3d(1009.676, 2995.631, -900.515));
     EXPECT_EQ(s.atoms[1].position.z(), 3000.5);
