@@ -25,7 +25,7 @@ ROWS = [
     ("IN --show 'resn ALA=licorice' -o x.png", ["did you mean sticks?"]),
     ("IN --show 'resn ALA' -o x.png", ['--show "resn ALA=sticks"']),
     ("IN --panel sess -o x.png", ["did you mean ses?"]),
-    ("IN --panel connolly -o x.png", ["did you mean ses?"]),
+    ("IN --panel connolly -o x.png", ["did you mean ses?", "vdb_molsurf help surface"]),
     ("IN --surface msms -o x.json", ["did you mean ses?"]),
     ("IN --surface SASA -o x.json", ["did you mean sas?"]),
     ("IN --surface vdw-surface -o x.json", ["did you mean vdw?"]),

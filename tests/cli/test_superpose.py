@@ -126,6 +126,18 @@ class Superpose(ToolTest):
         report = self.compare("two.pdb", CRAMBIN, "--superpose", "auto")
         self.assertEqual(report["superposition"]["atoms"], 46)
 
+    def test_of_locations_the_most_occupied_counts(self):
+        lines = CRAMBIN.read_text().splitlines()
+        for at, line in enumerate(lines):
+            if line[12:16] == " CA " and line[22:26] == "  10":
+                far = f"{line[:16]}B{line[17:30]}{float(line[30:38]) + 4:8.3f}{line[38:56]}0.30{line[60:]}"
+                lines[at:at + 1] = [far, f"{line[:16]}A{line[17:56]}0.70{line[60:]}"]
+                break
+        (self.folder / "b.pdb").write_text("\n".join(lines) + "\n")
+        report = self.compare(CRAMBIN, "b.pdb", "--altloc", "all", "--superpose", "auto")
+        self.assertEqual(report["superposition"]["atoms"], 46)
+        self.assertLess(report["superposition"]["rmsd"], 1e-3)
+
     def test_what_cannot_be_superposed(self):
         (self.folder / "one.xyzr").write_text("0 0 0 1.7\n")
         self.check(0, CRAMBIN, *FAST, "-o", "a.ply")

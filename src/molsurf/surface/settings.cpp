@@ -329,9 +329,7 @@ Setting kindSetting()
             s.options.kind = kind;
             return;
         }
-        const std::string hint = kindMeant(values.back());
-        wrongValue("surface", joinWords(words, " or "), values.back(),
-                   (hint.empty() ? "" : " (more hints: vdb_molsurf help surface)") + hint);
+        wrongValue("surface", joinWords(words, " or "), values.back(), kindMeant(values.back()));
     };
     return row;
 }

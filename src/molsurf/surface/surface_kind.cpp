@@ -50,7 +50,7 @@ std::string kindMeant(const std::string& typed)
                          {"gauss quicksurf blob blobby metaball metaballs", "gaussian"},
                          {"smooth skin default tms", "variational"},
                          {"mesh triangles", "-o FILE.ply, the mesh of any kind"}});
-    if (!other.empty()) return meant(other);
+    if (!other.empty()) return meant(other) + " (more hints: vdb_molsurf help surface)";
     std::vector<std::string> words;
     for (const KindRow& row : kindTable()) words.push_back(row.word);
     return didYouMean(word, words);
