@@ -50,6 +50,17 @@ def test_mdanalysis_agrees_with_the_file():
     assert np.allclose(run.results.relative[0], table["relative_accessibility"], atol=1e-3)
 
 
+def test_pieces_of_a_residue_have_the_share_of_the_whole():
+    mda = pytest.importorskip("MDAnalysis")
+    path = DATA / "cases" / "hydrogens_at_the_end.pdb"
+    run = ms.mdanalysis.SurfaceAnalysis(mda.Universe(str(path))).run()
+    table = ms.read(path).surface(kind="sas", grid=False).table("residues")
+    relative = run.results.relative[0]
+    assert len(relative) == 2 * len(table["relative_accessibility"])
+    assert np.allclose(relative[:len(relative) // 2], table["relative_accessibility"], atol=1e-3)
+    assert np.array_equal(relative[:len(relative) // 2], relative[len(relative) // 2:])
+
+
 def test_mdanalysis_in_parallel_and_with_meshes():
     atoms = universe().select_atoms("protein and not name H*")
     once = ms.mdanalysis.SurfaceAnalysis(atoms, radii="protor").run(stop=4)

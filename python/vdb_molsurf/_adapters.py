@@ -29,6 +29,21 @@ def largest_areas(residues):
     return np.array([np.nan if known[name] is None else known[name] for name in residues], dtype=np.float64)
 
 
+def whole_residues(keys, names):
+    """For each residue the first one that it is a piece of, as hydrogens at the end of a file: of the same key, and
+    without a name that comes again."""
+    first, known = [], {}
+    for index, (key, own) in enumerate(zip(keys, names)):
+        same = known.setdefault(key, [])
+        found = next((whole for whole in same if not own & whole[1]), None)
+        if found is None:
+            found = (index, set())
+            same.append(found)
+        found[1].update(own)
+        first.append(found[0])
+    return np.array(first, dtype=np.intp)
+
+
 def areas(positions, radii, probe):
     """Areas of all atoms; those without a radius have none and cover nothing."""
     out = np.zeros(len(radii))

@@ -21,7 +21,8 @@ class SurfaceAnalysis(AnalysisBase):
 
     Results, in Å² and Å³: `total_area` and `volume` (frames,), `atom_area` (frames, atoms), `residue_area`
     (frames, residues), and for sas with a probe of 1.4 `relative` (frames, residues), the share of the largest
-    accessible area. Residues are those of `atomgroup.residues`. In parallel by run(backend="multiprocessing",
+    accessible area. Residues are those of `atomgroup.residues`; pieces of one, as hydrogens at the end of a file, have
+    the share of the whole. In parallel by run(backend="multiprocessing",
     n_workers=4).
     """
 
@@ -51,6 +52,13 @@ class SurfaceAnalysis(AnalysisBase):
         self._residues = atomgroup.residues
         place = {index: k for k, index in enumerate(self._residues.resindices)}
         self._residue_of = np.array([place[index] for index in atomgroup.resindices], dtype=np.intp)
+        own = [set() for _ in self._residues]
+        for name, k in zip(names, self._residue_of):
+            own[k].add(str(name))
+        firsts = [residue.atoms[0] for residue in self._residues]
+        self._whole_of = _adapters.whole_residues(
+            [(atom.segid, getattr(atom, "chainID", ""), int(atom.resid), getattr(atom, "icode", ""), atom.resname)
+             for atom in firsts], own)
 
     def _prepare(self):
         self.results.atom_area = np.zeros((self.n_frames, len(self._atoms)))
@@ -74,4 +82,7 @@ class SurfaceAnalysis(AnalysisBase):
         self.results.residue_area = (_adapters.sums(areas, self._residue_of, len(self._residues)) if len(areas)
                                      else np.zeros((0, len(self._residues))))
         if self._options["kind"] == "sas" and self._options.get("probe", 1.4) == 1.4:
-            self.results.relative = self.results.residue_area / _adapters.largest_areas(self._residues.resnames)
+            areas = self.results.residue_area
+            if len(areas):
+                areas = _adapters.sums(areas, self._whole_of, len(self._residues))[:, self._whole_of]
+            self.results.relative = areas / _adapters.largest_areas(self._residues.resnames)

@@ -172,11 +172,20 @@ CASES = {
          "vdb_molsurf 1crn.pdb --fields all --voxel 1 -o a.vdb")],
     "structure/structure_list.cpp": [
         ("vdb_molsurf one.xyzr -o FILE", "vdb_molsurf batch one.xyzr -O out", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
-    "selection/selection_syntax.cpp": [
+    "selection/selection_phrase.cpp": [
         ("for example /1/A/53-132 or *;polymer", f"vdb_molsurf 1crn.pdb --select A/x {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select /1/A/5-32 {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select '*;polymer' {FAST} -o b.ply")],
-    "selection/parse_words.cpp": [
+    "selection/selection_tree.cpp": [
+        ("in quotes * and ? are letters: name C*", f"vdb_molsurf 1crn.pdb --select 'protein and not name \"C*\"' {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select 'protein and not name C*' {FAST} -o b.ply"),
+        ("names have the case of the file: resname THR", f"vdb_molsurf 1crn.pdb --select 'resname thr ALA' {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select 'resname THR ALA' {FAST} -o b.ply")],
+    "selection/parse_selection.cpp": [
+        ("not known here; write within 2 of S", f"vdb_molsurf 1crn.pdb --select 'name SG extend 1' {FAST} -o a.ply",
+         f"vdb_molsurf 1crn.pdb --select 'within 2 of name SG' {FAST} -o a.ply"),
+        ("(all) is the word", f"vdb_molsurf all.cif --select all {FAST} -o a.ply",
+         f"vdb_molsurf all.cif --select '(all)' {FAST} -o b.ply"),
         ("names follow it, as in chain A+B", f"vdb_molsurf 1crn.pdb --select 'chain = A' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'chain A+B' {FAST} -o a.ply"),
         ('a name that is also a word needs quotes, as in chain "all"', f"vdb_molsurf all.cif --select 'chain all' {FAST} -o a.ply",
@@ -191,9 +200,7 @@ CASES = {
     "selection/match_atoms.cpp": [
         ("all, element C, name C1", f"vdb_molsurf two.xyz --select 'chain A' {FAST} -o a.ply",
          *(f"vdb_molsurf two.xyz --select '{phrase}' {FAST} --force -o a.ply"
-           for phrase in ("all", "element C", "name C1", "index 0 to 9", "within 5 of index 0"))),
-        ("(all) is the word", f"vdb_molsurf all.cif --select all {FAST} -o a.ply",
-         f"vdb_molsurf all.cif --select '(all)' {FAST} -o b.ply")],
+           for phrase in ("all", "element C", "name C1", "index 0 to 9", "within 5 of index 0")))],
     "structure/detect_format.cpp": [
         ("give the structure, and this file with --trajectory", "vdb_molsurf 1d3z.xtc -o a.ply",
          f"vdb_molsurf 1d3z.pdb.gz --model 1 --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply")],
@@ -296,6 +303,8 @@ CASES = {
          "sed 's/level set/level sea/g; s/surface/surfeit/g' a.vdb > b.vdb; vdb_molsurf compare b.vdb one.xyzr",
          "vdb_molsurf info b.vdb | grep surfeit")],
     "selection/select_balls.cpp": [
+        ('--select "not resname ATP" leaves them out', f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' {FAST} -o a.json",
+         f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' --select 'not resname ATP' {FAST} -o b.json"),
         ("--waters keeps it", f"vdb_molsurf 1a8o.cif.gz --select water {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --select water --waters {FAST} -o a.ply"),
         ("--assembly 1", f"vdb_molsurf moved.pdb --instances {FAST} -o a.glb",
@@ -601,11 +610,12 @@ UNTRIED = {
     "selection/select_balls.cpp": {"`trajectory` FILE.dcd": "cli.formats follows it"},
     "structure/detect_format.cpp": {"take .bcif.gz": "it takes the Protein Data Bank", "in PyMOL": "it takes PyMOL",
                                     "gmx editconf": "it takes GROMACS", "cpptraj": "it takes AmberTools",
-                                    "ParmEd": "it takes ParmEd", "structconvert": "it takes RDKit",
+                                    "MDAnalysis turns": "it takes MDAnalysis", "ASE turns": "it takes ASE", "Open Babel": "it takes Open Babel",
+                                    "git lfs": "it takes Git LFS", "download the file": "it takes the network",
+                                    "take .cif.gz": "it takes the Protein Data Bank", "structconvert": "it takes RDKit",
                                     "the file of the coordinates": "it takes the Protein Data Bank",
                                     "unzip": "it takes unzip", "tar -xf": "it takes a tar archive", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
     "structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
-    "structure/read_xyz.cpp": {"Open Babel": "it takes Open Babel"},
     "selection/superpose.cpp": {"`select` takes one chain of each": "cli.superpose follows it"},
     "surface/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
     "surface/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},

@@ -2,24 +2,33 @@
 #include "molsurf/io/write_structure.h"
 
 #include "molsurf/error.h"
-#include "molsurf/structure/gemmi_model.h"
 
 #define GEMMI_WRITE_IMPLEMENTATION
 #include <gemmi/to_cif.hpp>
 #include <gemmi/to_mmcif.hpp>
 #include <gemmi/to_pdb.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <ios>
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace molsurf
 {
 
 namespace
 {
+
+/// The number of a gemmi::Model, which is text up to gemmi 0.6 and a number from 0.7 on.
+struct ModelNumber {
+    int value;
+    operator int() const { return value; }
+    operator std::string() const { return std::to_string(value); }
+};
 
 /// A coordinate with the three decimals that files have.
 double decimal(double x)
@@ -35,25 +44,28 @@ gemmi::Structure structureOf(const BallSet& atoms, const std::vector<double>& va
     const BallNames& names = *atoms.names;
     std::map<std::string, std::size_t> chains;
     std::map<std::string, std::string> entities;
-    std::int32_t last = -1;
-    gemmi::Residue* residue = nullptr;
+    std::vector<std::pair<gemmi::Chain*, std::size_t>> places(names.residues.size());
+    std::set<std::string> all;
+    for (const BallNames::Residue& name : names.residues) all.insert(name.chain);
+    model.chains.reserve(all.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (names.residueOf[i] != last) {
-            last = names.residueOf[i];
-            const BallNames::Residue& name = names.residues[std::size_t(last)];
+        auto& [chain, residue] = places[std::size_t(names.residueOf[i])];
+        if (!chain) {
+            const BallNames::Residue& name = names.residues[std::size_t(names.residueOf[i])];
             const auto [place, isNew] = chains.emplace(name.chain, model.chains.size());
             if (isNew) model.chains.emplace_back(name.chain);
-            gemmi::Residue& added = model.chains[place->second].residues.emplace_back();
+            chain = &model.chains[place->second];
+            residue = chain->residues.size();
+            gemmi::Residue& added = chain->residues.emplace_back();
             added.name = name.name;
             added.seqid = gemmi::SeqId(name.number, name.insertionCode);
             added.subchain = name.labelChain;
             added.het_flag = name.hetatm ? 'H' : 'A';
             added.entity_type =
                 name.hetatm ? gemmi::EntityType::NonPolymer : gemmi::EntityType::Polymer;
-            residue = &added;
         }
         const BallNames::Atom& name = names.atoms[i];
-        gemmi::Atom& atom = residue->atoms.emplace_back();
+        gemmi::Atom& atom = chain->residues[residue].atoms.emplace_back();
         atom.name = name.name;
         atom.altloc = name.altloc;
         const bool deuterium = name.element == 1 && name.name.rfind('D', 0) == 0;
@@ -104,10 +116,13 @@ void checkPdb(const BallSet& atoms, const std::vector<double>& values, const ope
 /// Refuses atoms that have no names, as those of .xyzr.
 void checkNames(const BallSet& atoms, const OutputFile& file)
 {
+    const bool named = std::any_of(atoms.names->atoms.begin(), atoms.names->atoms.end(),
+                                   [](const BallNames::Atom& atom) { return !atom.name.empty(); });
     for (const BallNames::Residue& residue : atoms.names->residues)
         if (residue.name.empty())
-            throw Error(ErrorKind::Output, file.path() + ": the atoms of the input have no names "
-                                                         "[hint: -o FILE.atoms.csv]");
+            throw Error(ErrorKind::Output,
+                        file.path() + ": the " + (named ? "residues" : "atoms") +
+                            " of the input have no names [hint: -o FILE.atoms.csv]");
 }
 
 /// @param[in] write  writes to a stream

@@ -20,9 +20,9 @@ using openvdb::Vec3d;
 constexpr float wallRoom = 0.4f;
 
 /// Directions in a layer, every 22.5 degrees or so.
-constexpr int directions[16][2] = {{1, 0},  {2, 1},  {1, 1},  {1, 2},   {0, 1},   {-1, 2},
-                                   {-1, 1}, {-2, 1}, {-1, 0}, {-2, -1}, {-1, -1}, {-1, -2},
-                                   {0, -1}, {1, -2}, {1, -1}, {2, -1}};
+constexpr int layerDirections[16][2] = {{1, 0},  {2, 1},  {1, 1},  {1, 2},   {0, 1},   {-1, 2},
+                                        {-1, 1}, {-2, 1}, {-1, 0}, {-2, -1}, {-1, -1}, {-1, -2},
+                                        {0, -1}, {1, -2}, {1, -1}, {2, -1}};
 
 /// Lowers the room of points begin to end of a row to the distance to a ball, where that is less.
 /// @param[in] at  the ball's place along the row, its squared distance from the row, its radius
@@ -100,7 +100,7 @@ void PoreGrid::findOpen(int layer)
     // The least room on the way from each point. It is a wall for a narrow point only where it is
     // narrower still: a dent in the outside has none in front of it.
     std::vector<float> least(std::size_t(count_[0]) * std::size_t(count_[1]));
-    for (const auto& way : directions) {
+    for (const auto& way : layerDirections) {
         // Each point is behind the one that its way comes from.
         for (int row = 0; row < count_[1]; ++row) {
             const int j = way[1] >= 0 ? row : count_[1] - 1 - row;

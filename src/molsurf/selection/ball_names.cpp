@@ -27,17 +27,18 @@ BallNames ballNames(const Structure& structure, const BallSet& atoms)
     for (std::size_t c = 0; c < placement.numbers.size(); ++c) {
         const std::string suffix = chainSuffix(placement.numbers[c]);
         std::map<std::int32_t, std::int32_t> known; // of this copy, by their place in the file
+        for (std::size_t i = placement.begin[c]; i < placement.begin[c + 1]; ++i)
+            known[structure.atoms[std::size_t(atoms.balls[i].atom)].residue] = 0;
+        for (auto& [residue, place] : known) {
+            place = std::int32_t(out.residues.size());
+            const Residue& r = structure.residues[std::size_t(residue)];
+            out.residues.push_back({structure.chains[std::size_t(r.chain)] + suffix,
+                                    structure.asyms[std::size_t(r.asym)] + suffix, r.name, r.number,
+                                    r.insertionCode, r.hetatm});
+        }
         for (std::size_t i = placement.begin[c]; i < placement.begin[c + 1]; ++i) {
             const Atom& atom = structure.atoms[std::size_t(atoms.balls[i].atom)];
-            const auto [place, isNew] =
-                known.emplace(atom.residue, std::int32_t(out.residues.size()));
-            if (isNew) {
-                const Residue& r = structure.residues[std::size_t(atom.residue)];
-                out.residues.push_back({structure.chains[std::size_t(r.chain)] + suffix,
-                                        structure.asyms[std::size_t(r.asym)] + suffix, r.name,
-                                        r.number, r.insertionCode, r.hetatm});
-            }
-            out.residueOf.push_back(place->second);
+            out.residueOf.push_back(known[atom.residue]);
             out.atoms.push_back({atom.name, atom.altloc, atom.element, atom.occupancy});
         }
     }

@@ -255,18 +255,21 @@ std::vector<std::int32_t> heavyAtoms(const Structure& structure)
 {
     constexpr std::uint8_t hydrogen = 1;
     std::vector<std::int32_t> out(structure.atoms.size());
+    std::vector<std::vector<std::int32_t>> heavy(structure.residues.size());
     const auto count = std::int32_t(out.size());
-    for (std::int32_t i = 0, begin = 0; i < count; ++i) {
+    for (std::int32_t i = 0; i < count; ++i) {
         const Atom& atom = structure.atoms[std::size_t(i)];
-        if (atom.residue != structure.atoms[std::size_t(begin)].residue) begin = i;
+        if (atom.element != hydrogen) heavy[std::size_t(atom.residue)].push_back(i);
+    }
+    for (std::int32_t i = 0; i < count; ++i) {
+        const Atom& atom = structure.atoms[std::size_t(i)];
         out[std::size_t(i)] = i;
         double least = std::numeric_limits<double>::max();
         if (atom.element != hydrogen) continue;
-        for (std::int32_t k = begin; k < count; ++k) {
+        for (const std::int32_t k : heavy[std::size_t(atom.residue)]) {
             const Atom& other = structure.atoms[std::size_t(k)];
-            if (other.residue != atom.residue) break;
             const double d = (Vec3d(other.position) - Vec3d(atom.position)).lengthSqr();
-            if (other.element == hydrogen || d >= least) continue;
+            if (d >= least) continue;
             least = d;
             out[std::size_t(i)] = k;
         }

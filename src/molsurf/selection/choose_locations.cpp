@@ -27,113 +27,83 @@ bool isSameSite(const Residue& a, const Residue& b)
     return a.chain == b.chain && a.number == b.number && a.insertionCode == b.insertionCode;
 }
 
-/// Mean occupancy of the atoms that share a label or a residue.
-struct Mean {
-    double sum = 0;
-    int count = 0;
-    std::size_t order = 0; ///< of first appearance
-};
+/// A reading of a site: a residue and a label; the label of an atom without one is ' ' if another
+/// atom of its residue has its name and a label.
+using Reading = std::pair<std::int32_t, char>;
 
-template<typename Key>
-void addTo(std::map<Key, Mean>& means, const Key& key, float occupancy)
+/// The readings that the atoms of a site are of; a label of '\0' is that of all of them.
+std::vector<Reading> readingsOf(const Structure& structure, const Indices& atoms)
 {
-    Mean& mean = means.emplace(key, Mean{0, 0, means.size()}).first->second;
-    mean.sum += occupancy;
-    ++mean.count;
-}
-
-/// In steps of the last decimal that files have, so that rounding does not decide.
-long roundedMean(const Mean& mean)
-{
-    constexpr double steps = 1e4;
-    return std::lround(steps * mean.sum / mean.count);
-}
-
-/// Keys by descending mean occupancy, then by order of appearance.
-template<typename Key>
-std::map<Key, std::size_t> ranked(const std::map<Key, Mean>& means)
-{
-    std::vector<std::pair<Key, Mean>> sorted(means.begin(), means.end());
-    std::sort(sorted.begin(), sorted.end(),
-              [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-        return roundedMean(a.second) > roundedMean(b.second);
-    });
-    std::map<Key, std::size_t> ranks;
-    for (std::size_t i = 0; i < sorted.size(); ++i) ranks[sorted[i].first] = i;
-    return ranks;
-}
-
-/// The alternatives of a residue.
-struct Site {
-    std::map<char, Mean> labels;
-    std::map<std::int32_t, Mean> residues;
-    std::map<std::string, std::map<char, std::size_t>> byName; ///< positions of atoms with a label
-};
-
-Site siteOf(const Structure& structure, const Indices& atoms)
-{
-    Site site;
+    std::set<std::pair<std::int32_t, std::string>> labelled;
     for (const auto i : atoms) {
         const Atom& atom = atomAt(structure, i);
-        if (atom.altloc == '\0') continue;
-        addTo(site.labels, atom.altloc, atom.occupancy);
-        addTo(site.residues, atom.residue, atom.occupancy);
+        if (atom.altloc != '\0') labelled.emplace(atom.residue, atom.name);
     }
-    return site;
-}
-
-/// Labels of a site that share the name of an atom, and whether their names are the same.
-struct Rivals {
-    std::set<std::pair<char, char>> pairs; ///< that share a name
-    bool different = false;                ///< whether the names of a pair differ
-};
-
-Rivals rivalsIn(const Site& site)
-{
-    Rivals out;
-    std::map<std::pair<char, char>, std::size_t> shared;
-    std::map<char, std::size_t> names;
-    for (const auto& [name, locations] : site.byName)
-        for (const auto& [label, i] : locations) {
-            ++names[label];
-            for (const auto& [other, k] : locations)
-                if (label != other) ++shared[{label, other}];
-        }
-    for (const auto& [pair, count] : shared) {
-        out.pairs.insert(pair);
-        out.different = out.different || names[pair.first] != count || names[pair.second] != count;
+    std::vector<Reading> out;
+    for (const auto i : atoms) {
+        const Atom& atom = atomAt(structure, i);
+        const bool rival = atom.altloc == '\0' && labelled.count({atom.residue, atom.name}) > 0;
+        out.emplace_back(atom.residue, rival ? ' ' : atom.altloc);
     }
     return out;
 }
 
-/// The marks of the atoms of one site that are kept. Where the readings have different atoms, one
-/// of them is kept as a whole, or atoms of one would lie beside those of another.
+/// How readings compare.
+struct Rivals {
+    std::map<Reading, std::size_t> rank;         ///< 0: the best one
+    std::set<std::pair<Reading, Reading>> pairs; ///< that share the name of an atom
+};
+
+/// Ranks readings by the sum of occupancies of those atoms whose names others have, too; of equal
+/// ones the first.
+Rivals rivalsIn(const Structure& structure, const Indices& atoms,
+                const std::vector<Reading>& readings)
+{
+    std::map<std::string, std::map<Reading, float>> byName;
+    std::vector<Reading> order;
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
+        if (readings[i].second == '\0') continue;
+        const Atom& atom = atomAt(structure, atoms[i]);
+        byName[atom.name].emplace(readings[i], atom.occupancy);
+        if (std::find(order.begin(), order.end(), readings[i]) == order.end())
+            order.push_back(readings[i]);
+    }
+    Rivals out;
+    std::map<Reading, double> sums;
+    for (const auto& [name, occupancies] : byName)
+        for (const auto& [reading, occupancy] : occupancies) {
+            if (occupancies.size() > 1) sums[reading] += double(occupancy);
+            for (const auto& [other, ignored] : occupancies)
+                if (other != reading) out.pairs.emplace(reading, other);
+        }
+    // In steps of the last decimal that files have, so that rounding does not decide.
+    const auto rounded = [&](const Reading& reading) { return std::lround(1e4 * sums[reading]); };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const Reading& a, const Reading& b) { return rounded(a) > rounded(b); });
+    for (std::size_t n = 0; n < order.size(); ++n) out.rank[order[n]] = n;
+    return out;
+}
+
+/// The marks of the atoms of one site that are kept: those of the best reading, and of others that
+/// share no name with it, of which again the best one is kept. So no atom of one reading lies
+/// beside those of another.
 std::vector<char> chooseInResidue(const Structure& structure, const Indices& atoms)
 {
-    std::vector<char> keep(atoms.size(), 0);
-    Site site = siteOf(structure, atoms);
-    const auto labelRank = ranked(site.labels);
-    const auto residueRank = ranked(site.residues);
-    char first = '\0'; // label of the best rank in the residue that is kept
-    for (std::size_t i = 0; i < atoms.size(); ++i) {
-        const Atom& atom = atomAt(structure, atoms[i]);
-        keep[i] = atom.altloc == '\0';
-        if (keep[i] || residueRank.at(atom.residue) != 0) continue;
-        site.byName[atom.name].emplace(atom.altloc, i);
-        if (first == '\0' || labelRank.at(atom.altloc) < labelRank.at(first)) first = atom.altloc;
+    const std::vector<Reading> readings = readingsOf(structure, atoms);
+    const Rivals rivals = rivalsIn(structure, atoms, readings);
+    std::vector<Reading> chosen, all(rivals.rank.size());
+    for (const auto& [reading, rank] : rivals.rank) all[rank] = reading;
+    for (const Reading& reading : all) {
+        const bool other = !chosen.empty() && chosen[0].first != reading.first;
+        const bool rival = std::any_of(chosen.begin(), chosen.end(), [&](const Reading& better) {
+            return rivals.pairs.count({better, reading}) > 0;
+        });
+        if (!other && !rival) chosen.push_back(reading);
     }
-    const Rivals rivals = rivalsIn(site);
-    for (const auto& [name, locations] : site.byName) {
-        const auto better = [&](const auto& a, const auto& b) {
-            const float mine = atomAt(structure, atoms[a.second]).occupancy;
-            const float other = atomAt(structure, atoms[b.second]).occupancy;
-            if (!rivals.different && mine != other) return mine > other;
-            return labelRank.at(a.first) < labelRank.at(b.first);
-        };
-        const auto best = std::min_element(locations.begin(), locations.end(), better);
-        keep[best->second] = !rivals.different || rivals.pairs.count({first, best->first}) == 0;
-    }
+    std::vector<char> keep;
+    for (const Reading& reading : readings)
+        keep.push_back(reading.second == '\0' ||
+                       std::find(chosen.begin(), chosen.end(), reading) != chosen.end());
     return keep;
 }
 

@@ -6,7 +6,7 @@
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/match_atoms.h"
-#include "molsurf/selection/parse_words.h"
+#include "molsurf/selection/selection_words.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
@@ -108,7 +108,12 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         const std::size_t length =
             std::size_t(columns[end - 1].data() + columns[end - 1].size() - first);
         if (length <= longest) rule.select = std::string(first, length);
-        if (end > 2 && !hasWords(rule.select)) { // then blanks part it from a wrong colour
+        const auto isWord = [](std::string_view text) {
+            return text.find_first_of("()|&<>=") != std::string_view::npos ||
+                   (text.size() > 1 && selectionWord(text));
+        };
+        const auto last = columns.begin() + std::ptrdiff_t(end);
+        if (end > 2 && std::none_of(columns.begin() + 1, last, isWord)) { // a wrong colour
             rule.select = columns[1];
             end = 2;
         }

@@ -16,14 +16,12 @@ namespace molsurf
 /// The atoms that an expression selects.
 struct AtomMatch {
     std::vector<char> atoms;           ///< 1 if selected, by index in Structure::atoms
-    std::vector<int> models;           ///< model number of each alternative; 0: any
-    std::vector<std::string> warnings; ///< alternatives that match nothing, while others do
+    std::vector<int> models;           ///< that phrases name; 0: any
+    std::vector<std::string> warnings; ///< alternatives and names that match nothing,
+                                       ///< and where brackets decide
 };
 
-/// Evaluates an expression in one of two languages. That of parseSelection(), alternatives joined
-/// by '|', goes first; there chains are named as in Structure::chains, [H] selects deuterium too,
-/// and [D] nothing. What it does not read, or reads and finds nothing, is one of parseWords() if
-/// that reads it. All models are searched.
+/// Evaluates an expression of parseSelection(). All models are searched.
 ///
 /// @throws Error(ErrorKind::Usage) if the expression does not parse
 /// @throws Error(ErrorKind::Input) if it matches no atom

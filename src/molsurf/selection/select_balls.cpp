@@ -132,9 +132,15 @@ void chooseAltloc(const Structure& structure, const std::string& altloc, Filter&
         failInput(structure, "alternate location " + inQuotes(altloc) + ": expected one of " +
                                  joined({labels.begin(), labels.end()}));
     }
+    std::set<std::pair<std::int32_t, std::string>> labelled; // that the label has
+    for (const std::int32_t i : filter.atoms()) {
+        const Atom& atom = structure.atoms[std::size_t(i)];
+        if (atom.altloc == altloc[0]) labelled.emplace(atom.residue, atom.name);
+    }
     filter.drop("alternate location", [&](std::int32_t i) {
-        const char label = structure.atoms[std::size_t(i)].altloc;
-        return label != '\0' && label != altloc[0];
+        const Atom& atom = structure.atoms[std::size_t(i)];
+        return atom.altloc == '\0' ? labelled.count({atom.residue, atom.name}) > 0
+                                   : atom.altloc != altloc[0];
     });
 }
 
@@ -600,32 +606,47 @@ BallSet readAtoms(FileContent file, const SelectOptions& options, double probe,
 namespace
 {
 
-/// The places of the atoms that a pocket is at.
+/// Adds the places of the atoms that a pocket is at, and warns if ligands among them are a part of
+/// the molecule, which fill the pocket.
 /// @throws Error(ErrorKind::Usage) if there are none
-std::vector<openvdb::Vec3d> pocketPlaces(const Structure& structure, const SelectOptions& options,
-                                         const Model& model)
+void addPocketPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
+                     BallSet& out)
 {
-    std::vector<openvdb::Vec3d> out;
-    if (options.pocketAt.empty()) return out;
+    if (options.pocketAt.empty()) return;
+    std::vector<char> used(structure.atoms.size());
+    for (const Ball& ball : out.balls) used[std::size_t(ball.atom)] = 1;
+    std::set<std::string> names;
+    std::size_t filled = 0;
     try {
         const AtomMatch match = matchAtoms(structure, options.pocketAt);
-        for (std::size_t i = model.begin; i < model.end; ++i)
-            if (match.atoms[i]) out.push_back(structure.atoms[i].position);
+        for (std::size_t i = model.begin; i < model.end; ++i) {
+            if (!match.atoms[i]) continue;
+            out.pocketAt.push_back(structure.atoms[i].position);
+            const Residue& residue = residueOf(structure, structure.atoms[i]);
+            if (!used[i] || !residue.hetero()) continue;
+            ++filled;
+            names.insert(residue.name);
+        }
     } catch (const Error& error) {
         throw Error(ErrorKind::Usage, std::string("`pocketAt`: ") + error.what());
     }
-    if (out.empty())
+    if (out.pocketAt.empty())
         throw Error(ErrorKind::Usage, "`pocketAt`: selection " + inQuotes(options.pocketAt) +
                                           " matches no atom of model " +
                                           std::to_string(model.number));
-    return out;
+    if (filled > 0)
+        out.warnings.push_back("`pocketAt`: " + counted(filled, "atom", "atoms") + " of " +
+                               joined({names.begin(), names.end()}) +
+                               " are a part of the molecule, and fill the pocket [hint: `select` "
+                               "\"not resname " +
+                               *names.begin() + "\" leaves them out]");
 }
 
 /// Adds where a pocket and a pore are searched for.
 void addPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
                BallSet& out)
 {
-    out.pocketAt = pocketPlaces(structure, options, model);
+    addPocketPlaces(structure, options, model, out);
     out.pore = poreWay(options.pore, structure, model);
 }
 

@@ -17,10 +17,10 @@ namespace molsurf
 /// The order of the balls is that of the file, copy by copy: a copy is one operator applied to the
 /// chains that share it. Every ball's `atom` is the index of its atom in Structure::atoms.
 ///
-/// Of alternate locations, by default, each atom of a residue keeps the one of highest occupancy.
-/// On a tie the label with the highest mean occupancy in that residue wins, then the first in the
-/// file, so a residue with equal alternatives keeps one conformer. Where the alternatives are
-/// different residues, one of them is kept, by the same rule.
+/// Of alternate locations, by default, a residue keeps one reading as a whole: that of the largest
+/// sum of occupancies over the atoms that readings share, of equal ones the first in the file. A
+/// location without a label is a reading beside those of the same atoms with one. Where the
+/// alternatives are different residues, one of them is kept, by the same rule.
 ///
 /// A resolution d makes the Gaussians of its atoms fall off at the rate C = pi^2/d^2, as
 /// ResolutionRule says.

@@ -2,14 +2,19 @@
 #include "molsurf/selection/selection_tree.h"
 
 #include "molsurf/selection/near_atoms.h"
+#include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <unordered_set>
 
 namespace molsurf
 {
 namespace
 {
+
+using std::string_view;
 
 bool matches(const SelectionPattern& selection, const Residue& residue, const Structure& structure)
 {
@@ -98,8 +103,16 @@ public:
 
     AtomMask of(const PatternTest& test) const
     {
+        std::vector<char> residues;
+        for (const Residue& residue : structure_.residues)
+            residues.push_back(char(matches(test.pattern, residue, structure_)));
         AtomMask out(structure_.atoms.size());
-        markAtoms(test.pattern, structure_, out);
+        for (const Model& model : structure_.models) {
+            if (test.pattern.model != 0 && test.pattern.model != model.number) continue;
+            for (std::size_t i = model.begin; i < model.end; ++i)
+                out[i] =
+                    char(residues[std::size_t(atom(i).residue)] && matches(test.pattern, atom(i)));
+        }
         return out;
     }
 
@@ -204,41 +217,59 @@ AtomMask atomsOf(const SelectionTree& tree, const SelectionFacts& facts)
     return std::visit([&](const auto& node) { return evaluation.of(node); }, tree.node);
 }
 
-bool asksForPlaces(const SelectionTree& tree)
+namespace
 {
-    const auto any = [](const std::vector<SubTree>& parts) {
-        return std::any_of(parts.begin(), parts.end(),
-                           [](const SubTree& part) { return asksForPlaces(*part); });
-    };
-    if (const auto* all = std::get_if<AllOf>(&tree.node)) return any(all->parts);
-    if (const auto* some = std::get_if<AnyOf>(&tree.node)) return any(some->parts);
-    if (const auto* no = std::get_if<NotOf>(&tree.node)) return asksForPlaces(*no->of);
-    if (const auto* same = std::get_if<SameAs>(&tree.node))
-        return (same->property && same->property->place) || asksForPlaces(*same->of);
-    if (const auto* test = std::get_if<NumberTest>(&tree.node)) return test->property->place;
-    return std::holds_alternative<NearTo>(tree.node);
+
+/// The selections that a node is made of.
+std::vector<SubTree> partsOf(const SelectionTree& tree)
+{
+    if (const auto* all = std::get_if<AllOf>(&tree.node)) return all->parts;
+    if (const auto* some = std::get_if<AnyOf>(&tree.node)) return some->parts;
+    if (const auto* no = std::get_if<NotOf>(&tree.node)) return {no->of};
+    if (const auto* same = std::get_if<SameAs>(&tree.node)) return {same->of};
+    if (const auto* near = std::get_if<NearTo>(&tree.node)) return {near->of};
+    return {};
 }
 
-std::size_t markAtoms(const SelectionPattern& selection, const Structure& structure,
-                      AtomMask& atoms)
+} // namespace
+
+bool asksForPlaces(const SelectionTree& tree)
 {
-    std::vector<char> residues(structure.residues.size());
-    std::transform(structure.residues.begin(), structure.residues.end(), residues.begin(),
-                   [&](const Residue& residue) {
-                       return static_cast<char>(matches(selection, residue, structure));
-                   });
-    std::size_t count = 0;
-    for (const Model& model : structure.models) {
-        if (selection.model != 0 && selection.model != model.number) continue;
-        for (std::size_t i = model.begin; i < model.end; ++i) {
-            const Atom& atom = structure.atoms[i];
-            if (!residues[std::size_t(atom.residue)]) continue;
-            if (!matches(selection, atom)) continue;
-            atoms[i] = 1;
-            ++count;
-        }
+    if (const auto* same = std::get_if<SameAs>(&tree.node))
+        if (same->property && same->property->place) return true;
+    if (const auto* test = std::get_if<NumberTest>(&tree.node)) return test->property->place;
+    const std::vector<SubTree> parts = partsOf(tree);
+    return std::holds_alternative<NearTo>(tree.node) ||
+           std::any_of(parts.begin(), parts.end(),
+                       [](const SubTree& part) { return asksForPlaces(*part); });
+}
+
+std::vector<std::string> unknownNames(const SelectionTree& tree, const Structure& structure)
+{
+    std::vector<std::string> out;
+    for (const SubTree& part : partsOf(tree))
+        for (std::string& line : unknownNames(*part, structure)) out.push_back(std::move(line));
+    const auto* const test = std::get_if<NameTest>(&tree.node);
+    if (!test) return out;
+    std::unordered_set<std::string_view> names;
+    for (const Atom& atom : structure.atoms) names.insert(test->property->text(structure, atom));
+    for (const NameGlob& glob : test->names) {
+        const auto has = [&](const NameGlob& one) {
+            return std::any_of(names.begin(), names.end(),
+                               [&](std::string_view name) { return one.matches(name); });
+        };
+        if (has(glob) || glob.text.empty()) continue;
+        const string_view words = test->property->words;
+        const std::string word(words.substr(0, words.find(' ')));
+        std::string upper = glob.text, hint;
+        for (char& c : upper) c = char(std::toupper(static_cast<unsigned char>(c)));
+        if (glob.quoted && glob.text.find_first_of("*?") != std::string::npos)
+            hint = " [hint: in quotes * and ? are letters: " + word + " " + glob.text + "]";
+        else if (has({upper, glob.pattern}))
+            hint = " [hint: names have the case of the file: " + word + " " + upper + "]";
+        out.push_back(word + " " + inQuotes(glob.text) + " matches no atom of the file" + hint);
     }
-    return count;
+    return out;
 }
 
 } // namespace molsurf

@@ -4,7 +4,7 @@
 /// @file
 /// A selection as a tree, and the atoms that it holds for.
 
-#include "molsurf/selection/selection_syntax.h"
+#include "molsurf/selection/selection_phrase.h"
 #include "molsurf/selection/selection_words.h"
 
 #include <memory>
@@ -24,7 +24,7 @@ using SubTree = std::shared_ptr<const SelectionTree>;
 /// A name, or a pattern in which * is any letters and ? is one.
 struct NameGlob {
     std::string text;
-    bool pattern = false;
+    bool pattern = false, quoted = false;
 
     bool matches(std::string_view name) const;
 };
@@ -50,7 +50,7 @@ struct NumberTest {
     std::string relation; ///< "<", "<=", ">", ">=", "=", "==" or "!="
     double value;
 };
-/// A phrase in gemmi's syntax.
+/// A phrase of gemmi's.
 struct PatternTest {
     SelectionPattern pattern;
 };
@@ -90,8 +90,7 @@ AtomMask atomsOf(const SelectionTree& tree, const SelectionFacts& facts);
 /// Whether a selection depends on where atoms lie.
 bool asksForPlaces(const SelectionTree& tree);
 
-/// Marks the atoms that a phrase in gemmi's syntax holds for; returns how many these are.
-std::size_t markAtoms(const SelectionPattern& selection, const Structure& structure,
-                      AtomMask& atoms);
+/// Names in lists that no atom has: one line each.
+std::vector<std::string> unknownNames(const SelectionTree& tree, const Structure& structure);
 
 } // namespace molsurf

@@ -2,7 +2,8 @@
 #pragma once
 
 /// @file
-/// The words of selections: those of PyMOL, VMD and MDAnalysis. A word is a row of a table here.
+/// The words of selections: those of PyMOL, VMD and MDAnalysis, and those of theirs that have no
+/// meaning here. A word is a row of a table.
 
 #include "molsurf/structure/structure.h"
 
@@ -79,6 +80,10 @@ struct SelectionWord {
 
 /// The word of a text in any case, if it is one.
 std::optional<SelectionWord> selectionWord(std::string_view text);
+
+/// What to write for a word of PyMOL, VMD, MDAnalysis, MDTraj or ProDy, in any case, that has no
+/// meaning here; empty for all other texts.
+std::string foreignWord(std::string_view text);
 
 /// All words but abbreviations, for a message that names a near one.
 const std::vector<std::string>& selectionWords();

@@ -46,19 +46,6 @@ std::vector<std::string> parseList(string_view list, const std::string& expressi
     }
 }
 
-std::vector<string_view> splitNames(string_view list)
-{
-    std::vector<string_view> names;
-    while (!list.empty()) {
-        const std::size_t comma = list.find(',');
-        const string_view name = trimmed(list.substr(0, comma));
-        if (!name.empty()) names.push_back(name);
-        if (comma == string_view::npos) break;
-        list.remove_prefix(comma + 1);
-    }
-    return names;
-}
-
 /// One assembly that REMARK 350 describes line by line.
 class Remark350
 {
@@ -203,6 +190,19 @@ std::vector<Operator> expandOperators(const std::string& expression,
         products = std::move(next);
     }
     return products;
+}
+
+std::vector<string_view> splitNames(string_view list)
+{
+    std::vector<string_view> names;
+    while (!list.empty()) {
+        const std::size_t comma = list.find(',');
+        const string_view name = trimmed(list.substr(0, comma));
+        if (!name.empty()) names.push_back(name);
+        if (comma == string_view::npos) break;
+        list.remove_prefix(comma + 1);
+    }
+    return names;
 }
 
 std::optional<Assembly> parseMtrix(const std::vector<string_view>& records,

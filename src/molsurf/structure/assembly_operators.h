@@ -37,6 +37,9 @@ std::vector<std::vector<std::string>> parseOperatorExpression(const std::string&
 std::vector<Operator> expandOperators(const std::string& expression,
                                       const std::map<std::string, Operator>& operators);
 
+/// The names of a list that commas separate, without blanks.
+std::vector<std::string_view> splitNames(std::string_view list);
+
 /// Reads the assemblies of REMARK 350 of a PDB file. A biomolecule may have several blocks of
 /// chains and operators; without a list of chains its operators apply to all. "NULL" is the blank
 /// chain name.

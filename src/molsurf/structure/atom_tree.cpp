@@ -2,7 +2,6 @@
 #include "molsurf/structure/atom_tree.h"
 
 #include "molsurf/structure/element.h"
-#include "molsurf/structure/gemmi_model.h"
 #include "molsurf/structure/guess_element.h"
 #include "molsurf/structure/residue_names.h"
 
@@ -21,37 +20,13 @@ namespace
 /// The residue of atoms that the Protein Data Bank cannot tell: their name UNK is no uranium.
 constexpr std::string_view unknownAtoms = "UNX";
 
-EntityHint hintOf(const gemmi::Residue& residue)
-{
-    switch (residue.entity_type) {
-    case gemmi::EntityType::Polymer:
-        return EntityHint::Polymer;
-    case gemmi::EntityType::Water:
-        return EntityHint::Water;
-    default:
-        return EntityHint::Other;
-    }
-}
-
-std::size_t countAtoms(const gemmi::Structure& structure)
-{
-    std::size_t atoms = 0;
-    for (const gemmi::Model& model : structure.models) {
-        for (const gemmi::Chain& chain : model.chains) {
-            for (const gemmi::Residue& residue : chain.residues) atoms += residue.atoms.size();
-        }
-    }
-    return atoms;
-}
-
 /// The molecules that stand in one residue as their numbers and names are the same.
 class Molecules
 {
 public:
     /// @param[in] atoms  of the residue, in the order of the file
-    /// @param[in] links  whether links of chains may have been joined, too
-    Molecules(const Structure& structure, const std::vector<std::size_t>& atoms, bool links)
-        : structure_(structure), atoms_(atoms), links_(links)
+    Molecules(const Structure& structure, const std::vector<std::size_t>& atoms)
+        : structure_(structure), atoms_(atoms)
     {
     }
 
@@ -61,9 +36,9 @@ public:
     {
         if (!firstRepeats()) return {};
         const NameClass kind = nameClass(residueOf(structure_, at(0)).name);
-        if (!links_ && isLink(kind)) return {};
+        if (isLink(kind)) return {};
         single_ = kind == NameClass::Water || kind == NameClass::Ion;
-        if (structure_.placed && !single_) sortIntoCells();
+        if (structure_.placed) sortIntoCells();
         std::vector<std::size_t> out;
         std::size_t last = 0; // that a bond joins to the molecule
         for (std::size_t i = 0; i < atoms_.size(); ++i) {
@@ -120,12 +95,6 @@ private:
     std::size_t lastPartner(std::size_t i) const
     {
         if (!structure_.placed) return i;
-        constexpr std::size_t sites = 8; // of a water, at most
-        if (single_) {
-            std::size_t last = std::min(i + sites, atoms_.size() - 1);
-            while (last > i && !areBonded(i, last)) --last;
-            return last;
-        }
         std::size_t best = i;
         const Cell middle = cellOf(at(i));
         for (int n = 0; n < 27; ++n) {
@@ -141,60 +110,53 @@ private:
 
     const Structure& structure_;
     const std::vector<std::size_t>& atoms_;
-    bool links_;
     bool single_ = false; ///< whether atoms of one element have no bonds
     double edge_ = 1.0;   ///< of a cell [Å]
     std::vector<std::pair<Cell, std::size_t>> cells_;
 };
 
-/// Puts the atoms of each model in the order of their serials, if these differ.
-void sortBySerials(Structure& structure)
+/// Takes away serial numbers that only count the atoms of each model.
+void dropPlainSerials(Structure& structure)
 {
-    std::vector<std::size_t> order(structure.atoms.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    const auto& serials = structure.serials;
-    for (const Model& model : structure.models) {
-        const auto begin = order.begin() + std::ptrdiff_t(model.begin);
-        const auto end = order.begin() + std::ptrdiff_t(model.end);
-        std::sort(begin, end, [&](auto a, auto b) { return serials[a] < serials[b]; });
-        if (std::adjacent_find(begin, end,
-                               [&](auto a, auto b) { return serials[a] == serials[b]; }) != end)
-            return;
-    }
-    std::vector<Atom> atoms;
-    std::vector<std::int32_t> sorted;
-    atoms.reserve(order.size());
-    sorted.reserve(order.size());
-    for (const std::size_t i : order) {
-        atoms.push_back(std::move(structure.atoms[i]));
-        sorted.push_back(serials[i]);
-    }
-    structure.atoms = std::move(atoms);
-    structure.serials = std::move(sorted);
+    for (const Model& model : structure.models)
+        for (std::size_t i = model.begin; i < model.end; ++i)
+            if (structure.serials[i] != std::int32_t(i - model.begin + 1)) return;
+    structure.serials = {};
 }
 
 /// Puts the residues in the order of their first atoms.
-void sortResidues(Structure& structure)
+/// @param[in] byChain  whether those of a chain, in the order of the chains, come together
+void sortResidues(Structure& structure, bool byChain)
 {
-    std::vector<std::int32_t> places(structure.residues.size(), -1);
-    std::vector<Residue> residues;
-    residues.reserve(places.size());
-    for (Atom& atom : structure.atoms) {
-        std::int32_t& place = places[std::size_t(atom.residue)];
-        if (place < 0) {
-            place = std::int32_t(residues.size());
-            residues.push_back(std::move(structure.residues[std::size_t(atom.residue)]));
+    std::vector<std::int32_t> order, places(structure.residues.size(), -1);
+    for (const Model& model : structure.models) {
+        const std::size_t begin = order.size();
+        for (std::size_t i = model.begin; i < model.end; ++i) {
+            std::int32_t& place = places[std::size_t(structure.atoms[i].residue)];
+            if (place < 0) order.push_back(structure.atoms[i].residue);
+            place = 0;
         }
-        atom.residue = place;
+        const auto chainOf = [&](std::int32_t r) {
+            return structure.residues[std::size_t(r)].chain;
+        };
+        if (byChain)
+            std::stable_sort(order.begin() + std::ptrdiff_t(begin), order.end(),
+                             [&](auto a, auto b) { return chainOf(a) < chainOf(b); });
     }
+    std::vector<Residue> residues;
+    residues.reserve(order.size());
+    for (const std::int32_t r : order) {
+        places[std::size_t(r)] = std::int32_t(residues.size());
+        residues.push_back(std::move(structure.residues[std::size_t(r)]));
+    }
+    for (Atom& atom : structure.atoms) atom.residue = places[std::size_t(atom.residue)];
     structure.residues = std::move(residues);
 }
 
 /// Makes residues of the molecules that stand in one. Those of Open Babel's unknown ligands and of
 /// files without residues stay.
-/// @param[in] links  whether links of chains may have been joined, too
 /// @return whether there are any
-bool separateMolecules(Structure& structure, bool links)
+bool separateMolecules(Structure& structure)
 {
     const std::size_t count = structure.residues.size();
     std::vector<std::size_t> ends(count + 1, 0), order(structure.atoms.size());
@@ -207,7 +169,7 @@ bool separateMolecules(Structure& structure, bool links)
         const std::size_t begin = r > 0 ? ends[r - 1] : 0, end = ends[r];
         if (end - begin < 2 || structure.residues[r].name == "UNL") continue;
         atoms.assign(order.begin() + std::ptrdiff_t(begin), order.begin() + std::ptrdiff_t(end));
-        std::vector<std::size_t> begins = Molecules(structure, atoms, links).begins();
+        std::vector<std::size_t> begins = Molecules(structure, atoms).begins();
         begins.push_back(atoms.size());
         for (std::size_t m = 0; m + 1 < begins.size(); ++m) {
             structure.residues.push_back(structure.residues[r]);
@@ -218,68 +180,48 @@ bool separateMolecules(Structure& structure, bool links)
     return structure.residues.size() > count;
 }
 
+/// A number for what tells residues apart.
+std::size_t hashOf(const Residue& residue)
+{
+    std::size_t hash = std::hash<std::string>()(residue.name);
+    for (const std::int32_t part :
+         {residue.chain, residue.asym, residue.number, std::int32_t(residue.insertionCode)})
+        hash = (hash ^ std::size_t(std::uint32_t(part))) * 0x9e3779b97f4a7c15u;
+    return hash;
+}
+
 } // namespace
 
-void TreeCopier::add(const gemmi::Structure& tree, bool goesOn)
+void joinModels(Structure& structure)
 {
-    if (out_.atoms.empty()) out_.atoms.reserve(countAtoms(tree));
-    std::vector<Model>& models = out_.models;
-    for (const gemmi::Model& model : tree.models) {
-        if (model.chains.empty()) continue;
-        int number = models.empty() ? 1 : models.back().number + 1;
-        setNumber(number, model);
-        if (!goesOn || models.empty() || models.back().number != number)
-            models.push_back({number, out_.atoms.size(), out_.atoms.size()});
-        goesOn = false;
-        for (const gemmi::Chain& chain : model.chains)
-            for (const gemmi::Residue& residue : chain.residues) add(chain, residue);
-        models.back().end = out_.atoms.size();
-    }
-}
-
-void TreeCopier::add(const gemmi::Chain& chain, const gemmi::Residue& from)
-{
-    Residue residue{};
-    residue.name = from.name;
-    residue.chain = chains_.index(chain.name, out_.chains);
-    residue.asym = asyms_.index(from.subchain, out_.asyms);
-    residue.number = from.seqid.num ? *from.seqid.num : 0;
-    residue.insertionCode = from.seqid.icode;
-    residue.hetatm = from.het_flag == 'H';
-    if (entitiesKnown_) residue.entity = hintOf(from);
-    if (!from.atoms.empty()) out_.residues.push_back(residue);
-    for (const gemmi::Atom& atom : from.atoms) {
-        auto element = std::uint8_t(atom.element.atomic_number());
-        if (isMisread(element, atom.name, from.name)) element = 0;
-        if (element == 0 && from.name != unknownAtoms) {
-            element = guessElement(atom.name, from.name);
-            if (out_.models.size() == 1) ++out_.guessed;
-        }
-        out_.atoms.push_back({openvdb::Vec3d(atom.pos.x, atom.pos.y, atom.pos.z), atom.name,
-                              std::int32_t(out_.residues.size()) - 1, element, atom.altloc,
-                              AtomRole::Atom, atom.occ, atom.b_iso, -1.0});
-        out_.serials.push_back(atom.serial);
-    }
-}
-
-void TreeCopier::finish()
-{
-    if (!separateMolecules(out_, true)) return;
-    sortBySerials(out_);
-    sortResidues(out_);
-}
-
-void dropPlainSerials(Structure& structure)
-{
-    if (structure.serials.empty()) return;
-    for (const Model& model : structure.models)
+    std::vector<Model> joined;
+    std::vector<std::pair<std::size_t, std::size_t>> order; // place of the model, atom
+    for (const Model& model : structure.models) {
+        auto same = std::find_if(joined.begin(), joined.end(),
+                                 [&](const Model& m) { return m.number == model.number; });
+        if (same == joined.end()) same = joined.insert(joined.end(), {model.number, 0, 0});
         for (std::size_t i = model.begin; i < model.end; ++i)
-            if (structure.serials[i] != std::int32_t(i - model.begin + 1)) return;
-    structure.serials = {};
+            order.emplace_back(same - joined.begin(), i);
+    }
+    if (joined.size() == structure.models.size()) return;
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Atom> atoms;
+    std::vector<std::int32_t> serials;
+    for (const auto& [place, i] : order) {
+        if (joined[place].end == 0) joined[place].begin = atoms.size();
+        atoms.push_back(std::move(structure.atoms[i]));
+        if (!structure.serials.empty()) serials.push_back(structure.serials[i]);
+        joined[place].end = atoms.size();
+    }
+    structure.atoms = std::move(atoms);
+    structure.serials = std::move(serials);
+    structure.models = std::move(joined);
 }
 
 void AtomTree::startModel(int number)
 {
+    endRun();
     std::vector<Model>& models = out_.models;
     if (!models.empty()) models.back().end = out_.atoms.size();
     if (!models.empty() && models.back().begin == models.back().end)
@@ -287,48 +229,103 @@ void AtomTree::startModel(int number)
     else
         models.push_back({number, out_.atoms.size(), out_.atoms.size()});
     modelBegin_ = std::int32_t(out_.residues.size());
+    runs_.clear();
+    likeBefore_.clear();
+    lastLike_.clear();
+    labels_.clear();
 }
 
-bool AtomTree::isSame(std::int32_t residue, const AtomLine& atom, std::int32_t chain) const
+bool AtomTree::isSame(const Residue& a, const Residue& b) const
 {
-    const Residue& at = out_.residues[std::size_t(residue)];
-    return at.number == atom.number && at.insertionCode == atom.insertionCode &&
-           at.chain == chain && at.name == atom.residue &&
-           segments_[std::size_t(residue)] == segment_;
+    return a.number == b.number && a.insertionCode == b.insertionCode && a.chain == b.chain &&
+           a.asym == b.asym && a.name == b.name;
 }
 
-std::int32_t AtomTree::residueOf(const AtomLine& atom)
+Residue AtomTree::residueOf(const AtomLine& atom)
 {
-    const std::int32_t chain = chains_.index(std::string(atom.chain), out_.chains);
-    segment_ = segmentTable_.index(std::string(atom.segment), segmentNames_);
-    const auto count = std::int32_t(out_.residues.size());
-    if (count > modelBegin_ && isSame(count - 1, atom, chain)) return count - 1;
-    for (std::int32_t r = count - 1; r >= modelBegin_; --r) { // alternatives
-        const Residue& before = out_.residues[std::size_t(r)];
-        const bool sameNumber =
-            before.number == atom.number && before.insertionCode == atom.insertionCode;
-        const char other = altlocs_[std::size_t(r)]; // of the block before that of the atom
-        const bool inBlock = other != '\0' && other != atom.altloc;
-        if (atom.altloc == '\0' || before.chain != chain || !(sameNumber || inBlock)) break;
-        if (isSame(r, atom, chain)) return r;
-    }
-    Residue residue{};
-    residue.name = atom.residue;
-    residue.chain = residue.asym = chain;
-    residue.number = atom.number;
-    residue.insertionCode = atom.insertionCode;
-    residue.hetatm = atom.hetatm;
+    Residue out{};
+    out.name = atom.residue;
+    out.chain = chains_.index(std::string(atom.chain), out_.chains);
+    out.asym = asyms_.index(std::string(atom.asym.empty() ? atom.chain : atom.asym), out_.asyms);
+    out.segment =
+        atom.segment.empty() ? -1 : segments_.index(std::string(atom.segment), out_.segments);
+    out.number = atom.number;
+    out.insertionCode = atom.insertionCode;
+    out.hetatm = atom.hetatm;
+    out.entity = atom.entity;
+    return out;
+}
+
+void AtomTree::startResidue(Residue residue)
+{
+    endRun();
+    const auto place = std::int32_t(out_.residues.size());
+    const auto [like, isNew] = lastLike_.emplace(hashOf(residue), place);
+    likeBefore_.push_back(isNew ? -1 : std::exchange(like->second, place));
+    runs_.emplace_back(runBegin_, runBegin_);
     out_.residues.push_back(std::move(residue));
-    segments_.push_back(segment_);
-    altlocs_.push_back(atom.altloc);
-    return count;
+}
+
+/// The names of a residue's atoms.
+std::set<AtomTree::Label>& AtomTree::labelsOf(std::int32_t residue)
+{
+    const auto [found, isNew] = labels_.emplace(residue, std::set<Label>());
+    const auto [begin, end] = runs_[std::size_t(residue - modelBegin_)];
+    for (std::size_t i = begin; isNew && i < end; ++i) found->second.insert(labelOf(i));
+    return found->second;
+}
+
+/// The residue that the atoms of the present run belong to: the first one like it that has none of
+/// their names; its own where a molecule begins anew.
+std::int32_t AtomTree::earlierResidue(std::int32_t run)
+{
+    constexpr int most = 1000; // residues of one name and number
+    std::int32_t found = run, like = run;
+    const Residue& own = out_.residues[std::size_t(run)];
+    for (int n = 0; n < most; ++n) {
+        like = likeBefore_[std::size_t(like - modelBegin_)];
+        if (like < 0) break;
+        if (!isSame(out_.residues[std::size_t(like)], own)) continue;
+        if (labelOf(runs_[std::size_t(like - modelBegin_)].first) == labelOf(runBegin_)) break;
+        const std::set<Label>& names = labelsOf(like);
+        bool free = true;
+        for (std::size_t i = runBegin_; i < out_.atoms.size() && free; ++i)
+            free = names.count(labelOf(i)) == 0;
+        if (free) found = like;
+    }
+    return found;
+}
+
+/// Gives the atoms of the present run to the residue that they belong to.
+void AtomTree::endRun()
+{
+    const std::size_t end = out_.atoms.size();
+    if (runBegin_ == end) return;
+    const auto run = std::int32_t(out_.residues.size()) - 1;
+    const std::int32_t residue = likeBefore_.back() < 0 ? run : earlierResidue(run);
+    if (residue == run) {
+        runs_.back().second = end;
+    } else {
+        std::set<Label>& names = labelsOf(residue);
+        for (std::size_t i = runBegin_; i < end; ++i) {
+            out_.atoms[i].residue = residue;
+            names.insert(labelOf(i));
+        }
+        lastLike_[hashOf(out_.residues.back())] = likeBefore_.back();
+        out_.residues.pop_back();
+        runs_.pop_back();
+        likeBefore_.pop_back();
+        joined_ = true;
+    }
+    runBegin_ = end;
 }
 
 std::uint8_t AtomTree::elementOf(const AtomLine& atom)
 {
-    if (atom.element != 0 || !atom.guess || atom.role != AtomRole::Atom ||
-        atom.residue == unknownAtoms)
-        return std::uint8_t(atom.element);
+    const auto given = std::uint8_t(atom.element);
+    if ((given != 0 && !isMisread(given, atom.name, atom.residue)) || !atom.guess ||
+        atom.role != AtomRole::Atom || atom.residue == unknownAtoms)
+        return given;
     if (out_.models.size() == 1) ++out_.guessed;
     std::string key(atom.residue);
     key.append(1, atom.inFirstColumn ? '\2' : '\1').append(atom.name);
@@ -344,10 +341,13 @@ std::uint8_t AtomTree::elementOf(const AtomLine& atom)
 void AtomTree::add(const AtomLine& atom)
 {
     if (out_.models.empty()) startModel(1);
-    const std::int32_t residue = residueOf(atom);
-    altlocs_[std::size_t(residue)] = atom.altloc;
-    out_.atoms.push_back({atom.position, std::string(atom.name), residue, elementOf(atom),
-                          atom.altloc, atom.role, atom.occupancy, atom.bFactor, atom.radius});
+    Residue residue = residueOf(atom);
+    if (runBegin_ == out_.atoms.size() || !isSame(out_.residues.back(), residue) ||
+        out_.residues.back().segment != residue.segment)
+        startResidue(std::move(residue));
+    out_.atoms.push_back({atom.position, std::string(atom.name),
+                          std::int32_t(out_.residues.size()) - 1, elementOf(atom), atom.altloc,
+                          atom.role, atom.occupancy, atom.bFactor, atom.radius});
     const bool first = out_.models.back().begin + 1 == out_.atoms.size();
     const std::int32_t next = first ? 1 : out_.serials.back() + 1;
     out_.serials.push_back(atom.serial != 0 ? atom.serial : next);
@@ -355,12 +355,12 @@ void AtomTree::add(const AtomLine& atom)
 
 Structure AtomTree::finish(bool placed)
 {
+    endRun();
     out_.placed = placed;
     if (!out_.models.empty()) out_.models.back().end = out_.atoms.size();
     if (!out_.models.empty() && out_.models.back().begin == out_.models.back().end)
         out_.models.pop_back();
-    out_.asyms = out_.chains;
-    if (separateMolecules(out_, false)) sortResidues(out_);
+    if (separateMolecules(out_) || joined_) sortResidues(out_, joined_);
     dropPlainSerials(out_);
     return std::move(out_);
 }

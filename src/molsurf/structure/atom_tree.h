@@ -2,53 +2,30 @@
 #pragma once
 
 /// @file
-/// Makes a structure: atom by atom, or of gemmi's tree of models, chains and residues.
+/// Makes a structure atom by atom: the one rule where a residue begins.
 
 #include "molsurf/structure/name_table.h"
 #include "molsurf/structure/structure.h"
 
-#include <gemmi/model.hpp>
-
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace molsurf
 {
 
-/// Copies gemmi's trees into the tables of a structure: models, atoms, residues, chains. A tree may
-/// be a piece of what another began, with chains of its own.
-class TreeCopier
-{
-public:
-    /// @param[in] entitiesKnown  whether the file says what the entities are
-    TreeCopier(Structure& out, bool entitiesKnown) : out_(out), entitiesKnown_(entitiesKnown) {}
-
-    /// @param[in] goesOn  whether the first model goes on with the last one, if its number is that
-    void add(const gemmi::Structure& tree, bool goesOn);
-
-    /// Separates molecules that gemmi joined as their numbers and names are the same.
-    void finish();
-
-private:
-    void add(const gemmi::Chain& chain, const gemmi::Residue& from);
-
-    Structure& out_;
-    bool entitiesKnown_;
-    NameTable chains_, asyms_;
-};
-
-/// Takes away Structure::serials that only count the atoms of each model.
-void dropPlainSerials(Structure& structure);
-
 /// One atom as a reader finds it.
 struct AtomLine {
     std::string_view chain, residue, name;
-    std::string_view segment; ///< of one chain; residues of two segments are different ones
+    std::string_view asym;    ///< label_asym_id; empty: the chain
+    std::string_view segment; ///< of one chain
     int number = 0;           ///< of the residue
     char insertionCode = ' ';
     bool hetatm = false;
+    EntityHint entity = EntityHint::None;
     char altloc = '\0';
     int element = 0;            ///< atomic number; 0 if unknown
     bool guess = true;          ///< whether guessElement() finds an element that is unknown
@@ -73,10 +50,17 @@ inline AtomLine unknownLigandAtom(const openvdb::Vec3d& position)
     return atom;
 }
 
-/// Makes a structure atom by atom, in the order of the file. A residue begins where its chain,
-/// number or names change, and in molecules other than links of chains where one like its first
-/// atom comes again that no bond joins to the residue before. Alternatives of one residue may
-/// alternate, and those of several may come one after the other.
+/// Joins models of one number, whose places in the order are those of their first atoms.
+void joinModels(Structure& structure);
+
+/// Makes a structure atom by atom, in the order of the file. A residue has one chain, number,
+/// insertion code and name, and no name of an atom twice in one location:
+/// - Atoms that come later in the model, or of another segment, belong to the first residue with
+/// these that has none of
+///   their names. So do hydrogens at the end of a file, alternatives block by block, and the atoms
+///   of chains that alternate.
+/// - In molecules other than links of chains another residue begins where an atom like the first
+///   one follows that no bond joins to the atoms before.
 class AtomTree
 {
 public:
@@ -91,19 +75,32 @@ public:
     Structure finish(bool placed = true);
 
 private:
+    using Label = std::pair<std::string, char>; ///< name and alternate location
+
     std::uint8_t elementOf(const AtomLine& atom);
-    bool isSame(std::int32_t residue, const AtomLine& atom, std::int32_t chain) const;
-    std::int32_t residueOf(const AtomLine& atom);
+    bool isSame(const Residue& a, const Residue& b) const;
+    Residue residueOf(const AtomLine& atom);
+    void startResidue(Residue residue);
+    void endRun();
+    Label labelOf(std::size_t atom) const
+    {
+        return {out_.atoms[atom].name, out_.atoms[atom].altloc};
+    }
+    std::set<Label>& labelsOf(std::int32_t residue);
+    std::int32_t earlierResidue(std::int32_t run);
 
     Structure out_;
-    NameTable chains_;
-    NameTable segmentTable_;
-    std::vector<std::string> segmentNames_;
-    std::int32_t segment_ = 0;                              ///< of the atom that is added
-    std::vector<std::int32_t> segments_;                    ///< one a residue
-    std::vector<char> altlocs_;                             ///< one a residue: of its last atom
-    std::int32_t modelBegin_ = 0;                           ///< first residue of the model
+    NameTable chains_, asyms_, segments_;
     std::unordered_map<std::string, std::uint8_t> guesses_; ///< by names and mass
+
+    // Of the model; a run is what comes without another residue between.
+    std::size_t runBegin_ = 0;                               ///< first atom of the present run
+    std::vector<std::pair<std::size_t, std::size_t>> runs_;  ///< atoms of each residue's first run
+    std::vector<std::int32_t> likeBefore_;                   ///< residue of the same hash; -1: none
+    std::unordered_map<std::size_t, std::int32_t> lastLike_; ///< by hash
+    std::unordered_map<std::int32_t, std::set<Label>> labels_; ///< of residues of several runs
+    std::int32_t modelBegin_ = 0;                              ///< first residue of the model
+    bool joined_ = false; ///< whether a residue has several runs in some model
 };
 
 } // namespace molsurf

@@ -184,9 +184,25 @@ bool isGro(const Sample& sample)
            line.substr(20).find('.') != string_view::npos;
 }
 
+/// True if the second line is an atom of Tinker: number, name, x, y, z and type, partners.
+bool isTinker(const Sample& sample)
+{
+    LineReader lines(sample.text);
+    int number = 0;
+    double x = 0.0;
+    if (!lines.next() || !parseInteger(sample.word, number) || !lines.next()) return false;
+    const Fields fields = splitFields(lines.line());
+    constexpr std::size_t first = 2, type = 5;
+    return fields.size() > type && parseInteger(fields[0], number) && !parseNumber(fields[1], x) &&
+           std::all_of(fields.begin() + first, fields.begin() + type,
+                       [&](string_view f) { return parseNumber(f, x); }) &&
+           parseInteger(fields[type], number);
+}
+
 /// True if the first line is a number alone and the third one a symbol and coordinates.
 bool isXyz(const Sample& sample)
 {
+    if (isTinker(sample)) return false;
     LineReader lines(sample.text);
     int atoms = 0;
     if (!lines.next() || !parseInteger(trimmed(lines.line()), atoms) || atoms < 0) return false;
@@ -282,7 +298,23 @@ const Refusal refusals[] = {
     {"a topology of CNS, which has no coordinates", "",
      [](const Sample& s) { return s.word == cnsTopology; }},
     {"a file of coordinates of CHARMM, which has no elements",
-     " [hint: MDAnalysis and ParmEd turn it into FILE.pdb]", isCharmmCard},
+     " [hint: MDAnalysis turns it into FILE.pdb]", isCharmmCard},
+    {"a file of Tinker", " [hint: Open Babel turns it, as txyz, into FILE.pdb]", isTinker},
+    {"a file of LAMMPS, which has no names",
+     " [hint: ASE turns a data file with masses into FILE.xyz]",
+     [](const Sample& s) { return has(s, " xlo xhi") || has(s, "ITEM: TIMESTEP"); }},
+    {"a pointer of Git LFS in the place of the file", " [hint: git lfs pull]",
+     [](const Sample& s) { return beginsAs(s, "version https://git-lfs"); }},
+    {"a web page (HTML) in the place of the file", " [hint: download the file itself]",
+     [](const Sample& s) {
+         return startsWithNoCase(s.word, "<!doctype") || startsWithNoCase(s.word, "<html");
+     }},
+    {"PDBML", " [hint: take .cif.gz of the same entry]",
+     [](const Sample& s) { return has(s, "<PDBx:datablock"); }},
+    {"CML", " [hint: Open Babel turns it into FILE.sdf]",
+     [](const Sample& s) {
+         return s.ends(".cml") || has(s, "<cml") || has(s, "xml-cml.org/schema");
+     }},
     {"a file of coordinates without names",
      " [hint: cpptraj or ambpdb makes FILE.pdb of it and of its topology]",
      [](const Sample& s) {

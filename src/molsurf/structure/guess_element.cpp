@@ -233,4 +233,12 @@ bool isParticleName(string_view atom)
            atom.substr(0, 3) == "LPN" || atom.substr(0, 3) == "LPS";
 }
 
+bool isMark(string_view residue, string_view atom)
+{
+    if (atom == "QSS") return true;                                               // HOLE
+    if (residue == "STP") return isIn(" POL APOL H C O ", atom);                  // fpocket, P2Rank
+    if (residue == "FIL" || residue == "TUN") return isIn(" H X FIL TUN ", atom); // CAVER, MOLE
+    return residue == "SPH" && isIn(" QC1 QC2 ", atom);                           // HOLE
+}
+
 } // namespace molsurf

@@ -51,6 +51,10 @@ std::uint8_t elementOfAutoDockType(std::string_view type);
 /// "LP", and "Bq" of a ghost.
 bool isParticleSymbol(std::string_view symbol);
 
+/// True for what programs write into structures to mark pockets, channels and probes: "APOL" of
+/// STP, "QSS".
+bool isMark(std::string_view residue, std::string_view atom);
+
 /// True for names of particles that are no atoms, in any residue: "EP1", "LPA", "EPW".
 bool isParticleName(std::string_view atom);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/ihm_spheres.h"
 
+#include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/name_table.h"
 #include "molsurf/structure/text_fields.h"
 
@@ -29,33 +30,6 @@ Sequences sequencesIn(gemmi::cif::Block& block)
     for (auto row : block.find("_entity_poly_seq.", {"entity_id", "num", "mon_id"}))
         out[{row.str(0), row.str(1)}] = row.str(2);
     return out;
-}
-
-/// Puts further atoms behind those of their models.
-void mergeByModel(std::map<int, std::vector<Atom>> further, Structure& structure)
-{
-    std::map<int, std::vector<Atom>> atomsOf;
-    std::vector<int> order;
-    for (const Model& model : structure.models) {
-        const auto begin = structure.atoms.begin() + std::ptrdiff_t(model.begin);
-        const auto end = structure.atoms.begin() + std::ptrdiff_t(model.end);
-        if (atomsOf.emplace(model.number, std::vector<Atom>(begin, end)).second)
-            order.push_back(model.number);
-    }
-    for (auto& [number, atoms] : further) {
-        std::vector<Atom>& to = atomsOf[number];
-        if (to.empty()) order.push_back(number);
-        to.insert(to.end(), std::make_move_iterator(atoms.begin()),
-                  std::make_move_iterator(atoms.end()));
-    }
-    structure.atoms.clear();
-    structure.serials.clear();
-    structure.models.clear();
-    for (const int number : order) {
-        const std::size_t begin = structure.atoms.size();
-        for (Atom& atom : atomsOf[number]) structure.atoms.push_back(std::move(atom));
-        structure.models.push_back({number, begin, structure.atoms.size()});
-    }
 }
 
 /// A sphere and the residues that it stands for.
@@ -206,13 +180,19 @@ void addSpheres(gemmi::cif::Block& block, const std::string& path, Structure& st
         structure.warnings.push_back("the model overlaps itself: " + std::to_string(scales.partly) +
                                      " spheres are of residues for some of which there are finer "
                                      "ones");
-    std::map<int, std::vector<Atom>> further;
-    for (std::size_t i = 0; i < rows; ++i) {
-        atoms[i].role = roles[i];
-        further[spans[i].model].push_back(std::move(atoms[i]));
-    }
     structure.hasRadii = structure.atoms.empty();
-    mergeByModel(std::move(further), structure);
+    structure.serials.clear();
+    std::map<int, std::vector<std::size_t>> byModel;
+    for (std::size_t i = 0; i < rows; ++i) byModel[spans[i].model].push_back(i);
+    for (const auto& [model, indices] : byModel) {
+        structure.models.push_back({model, structure.atoms.size(), 0});
+        for (const std::size_t i : indices) {
+            atoms[i].role = roles[i];
+            structure.atoms.push_back(std::move(atoms[i]));
+        }
+        structure.models.back().end = structure.atoms.size();
+    }
+    joinModels(structure);
 }
 
 } // namespace molsurf

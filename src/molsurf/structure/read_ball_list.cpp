@@ -3,6 +3,7 @@
 
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"
+#include "molsurf/structure/pdb_columns.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -83,30 +84,11 @@ std::array<double, n> lastNumbers(const Fields& fields, const std::array<const c
     return numbersFrom(fields, fields.size() - n, names, place);
 }
 
-/// The names and numbers that a file gives for an atom.
-struct Identity {
-    std::string chain, residue, atom;
-    int number = 0;
-    char insertionCode = ' ';
-    bool hetero = false;
-    int element = 0; ///< atomic number; 0: the file has none
-    int serial = 0;  ///< 0: the file has none
-};
-
 /// Adds an atom with a radius.
-void addBall(AtomTree& tree, const Identity& id, const openvdb::Vec3d& position, double radius)
+void addBall(AtomTree& tree, AtomLine atom, const openvdb::Vec3d& position, double radius)
 {
-    AtomLine atom;
-    atom.chain = id.chain;
-    atom.residue = id.residue;
-    atom.name = id.atom;
-    atom.number = id.number;
-    atom.insertionCode = id.insertionCode;
-    atom.hetatm = id.hetero;
-    atom.element = id.element;
     atom.position = position;
     atom.radius = radius;
-    atom.serial = id.serial;
     tree.add(atom);
 }
 
@@ -120,7 +102,7 @@ Structure finished(AtomTree& tree)
 }
 
 /// "52A" -> 52 and 'A'; false, and `id` as it was, if it does not start with an integer.
-bool parseResidueNumber(string_view field, Identity& id)
+bool parseResidueNumber(string_view field, AtomLine& id)
 {
     const bool code = field.size() > 1 && std::isalpha(static_cast<unsigned char>(field.back()));
     if (!parseInteger(code ? field.substr(0, field.size() - 1) : field, id.number)) return false;
@@ -129,18 +111,18 @@ bool parseResidueNumber(string_view field, Identity& id)
 }
 
 /// Reads what stands left of the coordinates: serial atom residue [chain] number.
-Identity pqrIdentity(const Fields& fields, std::size_t size, bool hetero)
+AtomLine pqrIdentity(const Fields& fields, std::size_t size, bool hetero)
 {
-    Identity id;
-    id.hetero = hetero;
+    AtomLine id;
+    id.hetatm = hetero;
     if (size > 0) parseInteger(fields[0], id.serial);
-    if (size > 1) id.atom = fields[1];
+    if (size > 1) id.name = fields[1];
     if (size > 2) id.residue = fields[2];
     if (size > 4) id.chain = fields[3];
     if (size < 4) return id;
     const string_view last = fields[size - 1];
     if (!parseResidueNumber(last, id) && size == 4 && last.size() > 1) { // chain glued: "A1234"
-        id.chain = last[0];
+        id.chain = last.substr(0, 1);
         parseResidueNumber(last.substr(1), id);
     }
     return id;
@@ -161,8 +143,34 @@ int takeElement(Fields& fields)
     return element;
 }
 
+/// Whether numbers are glued: a field has two decimal points.
+bool hasGlued(const Fields& fields)
+{
+    return std::any_of(fields.begin(), fields.end(), [](string_view field) {
+        return std::count(field.begin(), field.end(), '.') > 1;
+    });
+}
+
+/// Adds an atom whose coordinates and names are those of the columns of a PDB file.
+void addGlued(AtomTree& tree, const Place& place, int element, std::vector<float>& charges)
+{
+    constexpr std::size_t behind = 54;
+    const string_view line = place.lines.line();
+    AtomLine atom = atomInColumns(line.substr(0, behind), PdbLayout());
+    atom.position = placeInColumns(place.path, place.lines);
+    const Fields fields = splitFields(line.substr(std::min(behind, line.size())));
+    if (fields.size() < 2)
+        fail(place, "expected charge and radius behind column 54, got " + inQuotes(line));
+    const auto [charge, radius] =
+        numbersFrom(fields, 0, std::array<const char*, 2>{"charge", "radius"}, place);
+    charges.push_back(float(charge));
+    atom.element = element;
+    atom.radius = radius;
+    tree.add(atom);
+}
+
 /// The atom that a name in an xyzrn file stands for; see readStructure().
-Identity identityIn(string_view name)
+AtomLine identityIn(string_view name)
 {
     std::vector<string_view> parts;
     for (std::size_t end = 0; end != string_view::npos; name.remove_prefix(end + 1)) {
@@ -170,17 +178,17 @@ Identity identityIn(string_view name)
         parts.push_back(name.substr(0, end));
         if (end == string_view::npos) break;
     }
-    Identity id;
+    AtomLine id;
     const std::size_t count = parts.size();
     if ((count == 3 || count == 4) && parseResidueNumber(parts[2], id)) {
-        id.atom = parts[0];
+        id.name = parts[0];
         id.residue = parts[1];
         if (count == 4) id.chain = parts[3];
     } else if (count == 6 && parseInteger(parts[1], id.number)) {
         id.chain = parts[0];
         if (parts[2].size() == 1 && parts[2] != "x") id.insertionCode = parts[2][0];
         id.residue = parts[3];
-        id.atom = parts[4];
+        id.name = parts[4];
     }
     return id;
 }
@@ -211,8 +219,11 @@ Structure readPqr(const std::string& text, const std::string& path)
         constexpr std::size_t leftColumns = 4; // serial, atom, residue, number
         constexpr std::size_t columns = leftColumns + names.size();
         const int element = takeElement(fields);
-        if (fields.size() < columns) {
+        if (fields.size() < columns || hasGlued(fields))
             fields = splitGlued(fields, std::min(leftColumns - 1, fields.size()));
+        if (hasGlued(fields)) { // coordinates of eight characters touch: "2009.6762995.631"
+            addGlued(tree, place, element, charges);
+            continue;
         }
         if (fields.size() < columns) {
             fail(place, "expected 10 or 11 columns, the last ones x y z charge radius, got " +
@@ -220,7 +231,7 @@ Structure readPqr(const std::string& text, const std::string& path)
         }
         const auto [x, y, z, charge, radius] = lastNumbers(fields, names, place);
         charges.push_back(float(charge));
-        Identity id = pqrIdentity(fields, fields.size() - names.size(), hetero);
+        AtomLine id = pqrIdentity(fields, fields.size() - names.size(), hetero);
         id.element = element;
         addBall(tree, id, {x, y, z}, radius);
     }
@@ -234,7 +245,6 @@ Structure readXyzr(const std::string& text, const std::string& path)
     AtomTree tree;
     tree.reserve(std::size_t(std::count(text.begin(), text.end(), '\n')) + 1);
     constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
-    Identity id;
     Fields fields;
     for (LineReader lines(text); lines.next();) {
         splitFields(lines.line(), fields);
@@ -244,11 +254,10 @@ Structure readXyzr(const std::string& text, const std::string& path)
             fail(place, "expected x y z radius, got " + inQuotes(lines.line()));
         }
         const auto [x, y, z, radius] = lastNumbers(fields, names, place);
+        AtomLine id;
         if (fields.size() == names.size() + 3 && parseResidueNumber(fields[1], id)) {
             id.chain = fields[0];
-            id.atom = fields[2];
-        } else if (!id.chain.empty() || !id.atom.empty()) {
-            id = Identity();
+            id.name = fields[2];
         }
         addBall(tree, id, {x, y, z}, radius);
     }

@@ -329,6 +329,28 @@ Substructure substructureOf(string_view id, string_view name, const std::string&
     return out;
 }
 
+/// Whether the names of a molecule's substructures end in their numbers, as PyMOL and ChimeraX
+/// write them (CYS16, SO4404). Those of Amber do not: a link or water stands there without a number
+/// (DC), or all of them are whole names (DA5, DT3).
+bool endInNumbers(const std::set<std::string>& names)
+{
+    const auto isPlain = [](const std::string& name) {
+        return !isDigit(name.back()) && isOfChainOrWater(name);
+    };
+    const auto isWhole = [](const std::string& name) {
+        return isDigit(name.back()) && isLink(nameClass(name));
+    };
+    return std::none_of(names.begin(), names.end(), isPlain) &&
+           !std::all_of(names.begin(), names.end(), isWhole);
+}
+
+/// Whether a field is a number with a decimal point: a charge, where a name may be missing.
+bool isCharge(string_view field)
+{
+    double charge = 0.0;
+    return field.find('.') != string_view::npos && parseNumber(field, charge);
+}
+
 /// Whether a type can be one of SYBYL: "C.ar", "H", "Cl".
 bool isSybyl(string_view type)
 {
@@ -390,8 +412,10 @@ private:
                 continue;
             }
             if (section == "@<TRIPOS>ATOM") {
-                const Fields fields = splitFields(line);
+                const Fields fields = splitAtom(line);
                 if (fields.size() > Type && !isSybyl(fields[Type])) foreign_.insert(model);
+                if (fields.size() > SubstName && !fields[SubstName].empty())
+                    names_[model].emplace(fields[SubstName]);
                 continue;
             }
             constexpr std::size_t chain = 5, residue = 6; // id name root_atom type dictionary
@@ -403,6 +427,19 @@ private:
             if (fields.size() > residue && fields[residue] != "****")
                 known.residue = fields[residue];
         }
+        for (const auto& [molecule, names] : names_)
+            if (endInNumbers(names)) numbered_.insert(molecule);
+    }
+
+    /// The fields of an atom. GOLD leaves out the name of the substructure, DOCK 3.7 its number,
+    /// too.
+    static Fields splitAtom(string_view line)
+    {
+        Fields fields = splitFields(line);
+        for (const Column column : {SubstId, SubstName})
+            if (fields.size() > column && isCharge(fields[column]))
+                fields.insert(fields.begin() + column, string_view());
+        return fields;
     }
 
     /// Of a line of a bond: id, two atoms and the type; "nc": they are not connected.
@@ -414,7 +451,7 @@ private:
 
     void add(const LineReader& lines, int model)
     {
-        const Fields fields = splitFields(lines.line());
+        const Fields fields = splitAtom(lines.line());
         AtomLine atom;
         bool good = fields.size() > Type;
         for (int axis = 0; good && axis < 3; ++axis) {
@@ -431,8 +468,13 @@ private:
             if (found != substructures_.end()) known = found->second;
         }
         Substructure residue;
-        if (fields.size() > SubstName)
-            residue = substructureOf(fields[SubstId], fields[SubstName], known.residue);
+        if (fields.size() > SubstId) parseInteger(fields[SubstId], residue.number);
+        if (fields.size() > SubstName) {
+            if (numbered_.count(model) > 0)
+                residue = substructureOf(fields[SubstId], fields[SubstName], known.residue);
+            else
+                residue.name = fields[SubstName];
+        }
         double charge = 0.0;
         if (fields.size() > Charge && parseNumber(fields[Charge], charge))
             charges_.push_back(float(charge));
@@ -471,7 +513,9 @@ private:
     const std::string &text_, &path_;
     AtomTree tree_;
     std::map<std::pair<int, std::string>, SubstructureLine> substructures_; ///< by model and number
-    std::set<int> foreign_; ///< models whose types are not SYBYL's
+    std::map<int, std::set<std::string>> names_; ///< of substructures, by model
+    std::set<int> numbered_; ///< models whose names of substructures end in numbers
+    std::set<int> foreign_;  ///< models whose types are not SYBYL's
     std::vector<float> charges_;
     MoleculeBonds bonds_;
 };

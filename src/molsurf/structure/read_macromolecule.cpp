@@ -2,18 +2,18 @@
 #include "molsurf/structure/readers.h"
 
 #include "molsurf/core/cancel.h"
+#include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/assembly_operators.h"
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/binary_cif.h"
-#include "molsurf/structure/cif_rows.h"
-#include "molsurf/structure/gemmi_model.h"
+#include "molsurf/structure/element.h"
 #include "molsurf/structure/ihm_spheres.h"
 #include "molsurf/structure/residue_bonds.h"
+#include "molsurf/structure/small_cif.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <gemmi/cif.hpp>
-#include <gemmi/mmcif.hpp>
 #include <gemmi/numb.hpp>
 
 #include <algorithm>
@@ -21,10 +21,12 @@
 #include <cctype>
 #include <exception>
 #include <functional>
-#include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -64,144 +66,31 @@ std::string oneLine(const std::exception& error, const std::string& path)
 using gemmi::cif::Block;
 
 /// First data block that has atoms.
-Block& blockWithAtoms(gemmi::cif::Document& document, const std::string& path, Structure& out)
+Block& blockWithAtoms(gemmi::cif::Document& document, const std::string& path,
+                      std::vector<std::string>& warnings)
 {
-    Block* chosen = nullptr;
-    std::size_t further = 0;
-    for (Block& block : document.blocks) {
-        if (!block.has_tag("_atom_site.Cartn_x") && !hasSpheres(block)) continue;
-        if (chosen)
-            ++further;
-        else
-            chosen = &block;
-    }
-    if (further > 0) {
-        out.warnings.push_back(std::to_string(further) +
+    const auto isMacromolecule = [](const Block& block) {
+        return block.has_tag("_atom_site.Cartn_x") || hasSpheres(block);
+    };
+    for (bool (*const has)(const Block&) : {+isMacromolecule, hasSmallMolecule}) {
+        std::vector<Block*> found;
+        for (Block& block : document.blocks)
+            if (has(block)) found.push_back(&block);
+        if (found.size() > 1)
+            warnings.push_back(std::to_string(found.size() - 1) +
                                " further data blocks with atoms were ignored");
+        if (!found.empty()) return *found[0];
     }
-    if (chosen) return *chosen;
     std::string hint;
     for (const Block& block : document.blocks) {
-        if (block.has_tag("_chem_comp_atom.atom_id")) hint = " [it describes a chemical component]";
-        if (block.has_tag("_atom_site_label")) hint = " [it is a small-molecule CIF]";
+        if (block.has_tag("_chem_comp_atom.atom_id"))
+            hint = " [it describes a chemical component without coordinates]";
         if (block.has_tag("_refln.index_h") || block.has_tag("_diffrn_refln.index_h"))
             hint =
                 " [it has structure factors, the reflections of a crystal; hint: take the file of "
                 "the coordinates]";
     }
     failAt(path, "no atoms: expected _atom_site.Cartn_x and others of mmCIF, got none" + hint);
-}
-
-/// Makes a loop of one row of a category whose values are given as pairs.
-void makeLoop(Block& block, const std::string& category)
-{
-    std::vector<std::string> tags, values;
-    auto& items = block.items;
-    const auto isPair = [&](const gemmi::cif::Item& item) {
-        return item.type == gemmi::cif::ItemType::Pair &&
-               gemmi::istarts_with(item.pair[0], category);
-    };
-    for (const gemmi::cif::Item& item : items) {
-        if (!isPair(item)) continue;
-        tags.push_back(item.pair[0]);
-        values.push_back(item.pair[1]);
-    }
-    if (tags.empty()) return;
-    items.erase(std::remove_if(items.begin(), items.end(), isPair), items.end());
-    items.emplace_back(gemmi::cif::LoopArg{});
-    items.back().loop.tags = std::move(tags);
-    items.back().loop.values = std::move(values);
-}
-
-/// Fills in the author's numbers that are "." or "?": by label_seq_id, and where there is none
-/// either by counting, on from one molecule to the next.
-void completeNumbers(gemmi::cif::Loop& loop)
-{
-    const int author = loop.find_tag("_atom_site.auth_seq_id");
-    const int label = loop.find_tag("_atom_site.label_seq_id");
-    const int asym = loop.find_tag("_atom_site.label_asym_id");
-    const int atom = loop.find_tag("_atom_site.label_atom_id");
-    const auto isNull = [](const std::string& text) { return text == "." || text == "?"; };
-    const int model = loop.find_tag("_atom_site.pdbx_PDB_model_num");
-    std::string chain, first, ofModel; // of the molecule that is counted
-    int count = 0;
-    const std::size_t width = loop.width();
-    for (std::size_t begin = 0; begin + width <= loop.values.size(); begin += width) {
-        const auto value = [&](int column) -> std::string& {
-            return loop.values[begin + std::size_t(column)];
-        };
-        if (!isNull(value(author))) continue;
-        if (label >= 0 && !isNull(value(label))) {
-            value(author) = value(label);
-            continue;
-        }
-        if (value(asym) != chain || (model >= 0 && value(model) != ofModel)) count = 0;
-        const std::string name = atom >= 0 ? value(atom) : std::string();
-        if (count == 0 || name == first) {
-            ++count;
-            first = name;
-        }
-        chain = value(asym);
-        if (model >= 0) ofModel = value(model);
-        value(author) = std::to_string(count);
-    }
-}
-
-/// Refuses alternate locations of several letters.
-void checkAlternates(const gemmi::cif::Loop& loop, const std::string& path)
-{
-    const int column = loop.find_tag("_atom_site.label_alt_id");
-    if (column < 0) return;
-    for (std::size_t at = std::size_t(column); at < loop.values.size(); at += loop.width()) {
-        if (loop.values[at].size() < 2) continue;
-        const std::string value = gemmi::cif::as_string(loop.values[at]);
-        if (value.size() > 1)
-            failAt(path, "_atom_site.label_alt_id of atom " +
-                             std::to_string(at / loop.width() + 1) +
-                             ": expected one character, got " + inQuotes(value));
-    }
-}
-
-/// Adds the columns without which gemmi's reader finds no atoms, if they can be made up.
-void completeAtomSite(Block& block, const std::string& path)
-{
-    gemmi::cif::Item* const item = block.find_loop("_atom_site.Cartn_x").item();
-    auto has = [&](const std::string& tag) { return block.has_tag("_atom_site." + tag); };
-    struct Default {
-        const char* tag;
-        const char* value;
-    };
-    constexpr std::array<Default, 4> defaults{
-        {{"label_alt_id", "."}, {"occupancy", "1"}, {"B_iso_or_equiv", "0"}, {"type_symbol", "?"}}};
-    std::vector<Default> missing;
-    for (const Default& column : defaults) {
-        if (!has(column.tag)) missing.push_back(column);
-    }
-    const bool copySequence = !has("auth_seq_id") && has("label_seq_id");
-    for (const char* tag : {"id", "label_asym_id", "Cartn_y", "Cartn_z"}) {
-        if (!has(tag)) failAt(path, std::string("_atom_site has no column ") + tag);
-    }
-    if (!copySequence && !has("auth_seq_id")) failAt(path, "_atom_site has no column auth_seq_id");
-    if (!item) return;
-    gemmi::cif::Loop& loop = item->loop;
-    checkAlternates(loop, path);
-    if (!copySequence) completeNumbers(loop);
-    if (missing.empty() && !copySequence) return;
-    const int sequence = loop.find_tag("_atom_site.label_seq_id");
-    const std::size_t rows = loop.length(), width = loop.width();
-    std::vector<std::string> values;
-    values.reserve(loop.values.size() + rows * (missing.size() + 1));
-    for (std::size_t row = 0; row < rows; ++row) {
-        const auto begin = loop.values.begin() + static_cast<std::ptrdiff_t>(row * width);
-        values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
-        for (const Default& column : missing) values.emplace_back(column.value);
-        if (copySequence) values.push_back(begin[sequence]);
-    }
-    for (const Default& column : missing)
-        loop.tags.push_back(std::string("_atom_site.") + column.tag);
-    if (copySequence) loop.tags.push_back("_atom_site.auth_seq_id");
-    loop.values = std::move(values);
-    if (copySequence) completeNumbers(loop);
 }
 
 /// Columns of a matrix and a vector in a table of operators.
@@ -228,19 +117,6 @@ void readOperators(Block& block, const std::string& category, const char* furthe
         op.name = row.str(0);
         add(op, further && row.has(13) ? row.str(13) : std::string());
     }
-}
-
-std::vector<std::string> splitList(const std::string& list)
-{
-    std::vector<std::string> names;
-    std::size_t begin = 0;
-    while (begin <= list.size()) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string_view name = trimmed(std::string_view(list).substr(begin, end - begin));
-        if (!name.empty() && name != "\n") names.emplace_back(name);
-        begin = end + 1;
-    }
-    return names;
 }
 
 /// Chains that share an operator expression become one part, so that a copy is whole.
@@ -275,7 +151,7 @@ std::vector<Assembly> readAssemblies(Block& block)
                 count += assembly.parts.back().operators.size();
             }
             auto& list = assembly.parts[known.first->second].chains;
-            for (std::string& chain : splitList(chains)) list.push_back(std::move(chain));
+            for (const std::string_view chain : splitNames(chains)) list.emplace_back(chain);
         } catch (const Error& error) {
             partOf.erase(known.first);
             assembly.problem = error.what();
@@ -344,176 +220,298 @@ std::shared_ptr<const FileBonds> readBonds(Block& block)
     return all->links.empty() && all->residues.empty() ? nullptr : all;
 }
 
-/// Takes out what is not of the atoms: faster, and nothing in it can fail.
-void keepOnlyAtoms(Block& block)
-{
-    auto isNeeded = [&](const gemmi::cif::Item& item) {
-        const std::string* tag = nullptr;
-        if (item.type == gemmi::cif::ItemType::Pair) tag = &item.pair[0];
-        if (item.type == gemmi::cif::ItemType::Loop) tag = &item.loop.tags.at(0);
-        return tag && gemmi::istarts_with(*tag, "_atom_site.");
-    };
-    auto& items = block.items;
-    items.erase(std::remove_if(items.begin(), items.end(), std::not_fn(isNeeded)), items.end());
-}
-
-/// What a block says that its molecules are. gemmi looks through all entities for each chain.
+/// What a block says that its molecules are.
 class EntityTypes
 {
 public:
     explicit EntityTypes(Block& block)
     {
-        for (auto row : block.find("_entity.", {"id", "type"}))
-            types_.emplace(row.str(0), gemmi::entity_type_from_string(row.str(1)));
+        for (auto row : block.find("_entity.", {"id", "type"})) types_[row.str(0)] = row.str(1);
         auto chains = block.find("_struct_asym.", {"id", "entity_id"});
         listed_ = chains.ok();
         for (auto row : chains) {
             const auto type = types_.find(row.str(1));
-            if (type != types_.end()) ofChain_.emplace(row.str(0), type->second);
+            if (type != types_.end()) ofChain_.emplace(row.str(0), hintOf(type->second));
         }
     }
 
-    /// Sets the types of residues where the block has them; others keep what gemmi takes them for.
-    void set(gemmi::Structure& tree)
+    /// Of a label chain by the table of chains, or by the entity that its atoms name.
+    EntityHint of(const std::string& asym, const std::string& entity)
     {
-        for (gemmi::Model& model : tree.models)
-            for (gemmi::Chain& chain : model.chains)
-                for (gemmi::Residue& residue : chain.residues) {
-                    const gemmi::EntityType type = typeOf(residue);
-                    if (type != gemmi::EntityType::Unknown) residue.entity_type = type;
-                }
+        const auto known = ofChain_.find(asym);
+        if (known != ofChain_.end()) return known->second;
+        const auto type = listed_ ? types_.end() : types_.find(entity);
+        const EntityHint hint = type == types_.end() ? EntityHint::None : hintOf(type->second);
+        return ofChain_.emplace(asym, hint).first->second;
     }
 
 private:
-    gemmi::EntityType typeOf(const gemmi::Residue& residue)
+    static EntityHint hintOf(const std::string& type)
     {
-        const auto known = ofChain_.find(residue.subchain);
-        if (known != ofChain_.end()) return known->second;
-        const auto type = listed_ ? types_.end() : types_.find(residue.entity_id);
-        if (type == types_.end() || residue.subchain.empty()) return gemmi::EntityType::Unknown;
-        return ofChain_.emplace(residue.subchain, type->second).first->second;
+        const std::string lower = gemmi::to_lower(type);
+        return lower == "polymer"              ? EntityHint::Polymer
+               : lower == "water"              ? EntityHint::Water
+               : lower == "?" || lower.empty() ? EntityHint::None
+                                               : EntityHint::Other;
     }
 
-    std::unordered_map<std::string, gemmi::EntityType> types_, ofChain_; // by entity, label chain
+    std::map<std::string, std::string> types_;            // by entity
+    std::unordered_map<std::string, EntityHint> ofChain_; // by label chain
     bool listed_ = false; ///< whether the chains are, or else the atoms name their entities
 };
 
-constexpr std::size_t rowsOfPiece = 20000; // which take 30 MB
+/// Text of a value, without its quotes; empty for "." and "?".
+std::string_view textOf(std::string_view value, std::string& buffer)
+{
+    if (value.size() == 1 && (value[0] == '.' || value[0] == '?')) return {};
+    if (value.empty() || (value[0] != '\'' && value[0] != '"' && value[0] != ';')) return value;
+    return buffer = gemmi::cif::as_string(std::string(value));
+}
 
-/// Makes atoms of a block's rows, with what gemmi reads of it; the next rows are those of other
-/// chains.
-class AtomAdder
+/// Makes atoms of the rows of _atom_site.
+class AtomSite
 {
 public:
-    AtomAdder(Block& block, const std::string& path, Structure& out)
-        : path_(path), entities_(block), copier_(out, block.has_tag("_entity.type")), out_(out)
+    AtomSite(const std::vector<std::string>& tags, const std::string& path) : path_(path)
     {
-    }
-
-    /// To be called behind the last rows.
-    void finish() { copier_.finish(); }
-
-    void add(Block& block, const Progress& progress)
-    {
-        prepare(block);
-        addTree(block, progress, goesOn_);
-        goesOn_ = true;
-    }
-
-    /// The same of all rows at once, which may be cut.
-    /// @param[in] enough  rows of a part, at least
-    void addInParts(Block& block, std::size_t enough, const Progress& progress)
-    {
-        prepare(block);
-        gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
-        const std::vector<std::size_t> cuts =
-            loop ? cutsOfRows(*loop, enough) : std::vector<std::size_t>();
-        if (cuts.size() <= 2) return addTree(block, progress, false);
-        if (out_.atoms.empty()) out_.atoms.reserve(loop->length());
-        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
-            Block part("");
-            part.items.emplace_back(gemmi::cif::LoopArg{});
-            gemmi::cif::Loop& rows = part.items.back().loop;
-            rows.tags = loop->tags;
-            const auto at = [&](std::size_t row) {
-                return std::make_move_iterator(loop->values.begin() +
-                                               std::ptrdiff_t(row * loop->width()));
-            };
-            rows.values.assign(at(cuts[k]), at(cuts[k + 1]));
-            addTree(part, progress, k > 0);
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            const auto found = std::find_if(tags.begin(), tags.end(), [&](const std::string& tag) {
+                return lowered(tag) == lowered(std::string("_atom_site.") + names[c]);
+            });
+            columns_[c] = std::size_t(found - tags.begin());
         }
+        width_ = tags.size();
+        if (!has(Asym) && !has(AuthorChain))
+            failAt(path_, "_atom_site has no column label_asym_id");
+        for (const Column column : {Y, Z})
+            if (!has(column))
+                failAt(path_, std::string("_atom_site has no column ") + names[column]);
+        if (!has(Number) && !has(Sequence)) failAt(path_, "_atom_site has no column auth_seq_id");
+    }
+
+    void add(const Fields& row)
+    {
+        row_ = &row;
+        startModel();
+        ++rows_;
+        AtomLine atom;
+        atom.name = first(AuthorAtom, Atom_);
+        atom.residue = first(AuthorResidue, ResidueName);
+        atom.asym = first(Asym, AuthorChain);
+        atom.chain = first(AuthorChain, Asym);
+        atom.number = number(atom);
+        if (const std::string_view code = text(Code); !code.empty()) atom.insertionCode = code[0];
+        atom.hetatm = text(Group).substr(0, 1) == "H";
+        // What stands in no sequence is no link of the chain.
+        const bool placeless = has(Sequence) && text(Sequence).empty() && atom.hetatm;
+        atom.entity = placeless ? EntityHint::None : EntityHint::Polymer;
+        if (asym_ != atom.asym) entities_.emplace(asym_ = atom.asym, text(Entity));
+        atom.altloc = altloc();
+        const std::string_view symbol = text(Symbol);
+        const auto letters = std::find_if_not(symbol.begin(), symbol.end(), isLetter);
+        atom.element = elementNumber(std::string(symbol.begin(), letters));
+        atom.position = {value(X, nan), value(Y, nan), value(Z, nan)};
+        atom.occupancy = float(value(Occupancy, 1.0));
+        atom.bFactor = float(value(BFactor, 0.0));
+        parseInteger(text(Id), atom.serial);
+        tree_.add(atom);
+    }
+
+    void reserve(std::size_t atoms) { tree_.reserve(atoms); }
+
+    /// The structure of all rows, with the entities of the block that has them.
+    Structure finish(Block& block)
+    {
+        Structure out = tree_.finish();
+        EntityTypes types(block);
+        std::vector<EntityHint> hints;
+        for (const std::string& asym : out.asyms) hints.push_back(types.of(asym, entities_[asym]));
+        for (Residue& residue : out.residues) {
+            const EntityHint hint = hints[std::size_t(residue.asym)];
+            const bool placeless = residue.entity == EntityHint::None;
+            residue.entity = hint == EntityHint::Polymer && placeless ? EntityHint::None : hint;
+        }
+        joinModels(out);
+        return out;
     }
 
 private:
-    void prepare(Block& block)
+    using Column = std::size_t;
+    static constexpr Column Group = 0, Id = 1, Symbol = 2, Atom_ = 3, AuthorAtom = 4, Alternate = 5,
+                            ResidueName = 6, AuthorResidue = 7, Asym = 8, AuthorChain = 9,
+                            Entity = 10, Sequence = 11, Number = 12, Code = 13, X = 14, Y = 15,
+                            Z = 16, Occupancy = 17, BFactor = 18, ModelNumber = 19, Count = 20;
+    static constexpr std::array<const char*, Count> names{"group_PDB",       "id",
+                                                          "type_symbol",     "label_atom_id",
+                                                          "auth_atom_id",    "label_alt_id",
+                                                          "label_comp_id",   "auth_comp_id",
+                                                          "label_asym_id",   "auth_asym_id",
+                                                          "label_entity_id", "label_seq_id",
+                                                          "auth_seq_id",     "pdbx_PDB_ins_code",
+                                                          "Cartn_x",         "Cartn_y",
+                                                          "Cartn_z",         "occupancy",
+                                                          "B_iso_or_equiv",  "pdbx_PDB_model_num"};
+    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+    bool has(Column column) const { return columns_[column] < width_; }
+
+    std::string_view text(Column column)
     {
-        makeLoop(block, "_atom_site.");
-        completeAtomSite(block, path_);
-        keepOnlyAtoms(block);
+        return has(column) ? textOf((*row_)[columns_[column]], buffers_[column])
+                           : std::string_view();
     }
 
-    void addTree(const Block& block, const Progress& progress, bool goesOn)
+    std::string_view first(Column column, Column other)
     {
-        gemmi::Structure tree = gemmi::make_structure_from_block(block);
-        stopIfCancelled(progress);
-        entities_.set(tree);
-        copier_.add(tree, goesOn);
+        const std::string_view found = text(column);
+        return found.empty() ? text(other) : found;
+    }
+
+    double value(Column column, double missing)
+    {
+        const std::string_view field = text(column);
+        double out = missing;
+        if (!field.empty() && !parseNumber(field, out))
+            out = gemmi::cif::as_number(std::string(field), missing); // "1.23(4)"
+        return out;
+    }
+
+    void startModel()
+    {
+        int number = model_ == 0 ? 1 : model_;
+        parseInteger(text(ModelNumber), number);
+        if (number == model_) return;
+        tree_.startModel(model_ = number);
+        count_ = 0;
+    }
+
+    /// The author's number; where it is missing that of the sequence, and without either the
+    /// molecules of a chain are counted.
+    int number(const AtomLine& atom)
+    {
+        int out = 0;
+        if (const std::string_view field = first(Number, Sequence); !field.empty()) {
+            parseInteger(field, out);
+            return out;
+        }
+        if (atom.asym != counted_) count_ = 0;
+        if (count_ == 0 || atom.name == firstName_) {
+            ++count_;
+            firstName_ = atom.name;
+        }
+        counted_ = atom.asym;
+        return count_;
+    }
+
+    char altloc()
+    {
+        const std::string_view label = text(Alternate);
+        if (label.size() > 1)
+            failAt(path_, "_atom_site.label_alt_id of atom " + std::to_string(rows_) +
+                              ": expected one character, got " + inQuotes(label));
+        return label.empty() ? '\0' : label[0];
     }
 
     const std::string& path_;
-    EntityTypes entities_;
-    TreeCopier copier_;
-    Structure& out_;
-    bool goesOn_ = false;
+    AtomTree tree_;
+    std::string asym_;                            ///< of the row before
+    std::map<std::string, std::string> entities_; ///< that rows name, by label chain
+    std::array<std::size_t, Count> columns_;
+    std::array<std::string, Count> buffers_; ///< of texts in quotes
+    std::size_t width_ = 0, rows_ = 0;
+    const Fields* row_ = nullptr;
+    int model_ = 0;
+    std::string counted_, firstName_; ///< chain and first atom of the molecule that is counted
+    int count_ = 0;
 };
 
-/// The atoms of a block that has but the first of some rows in a text.
-/// @throws std::runtime_error if that is no such block, or if a row cannot be read
-void addPieces(Block& block, const std::string& text, const CifRows& rows, const std::string& path,
-               const Progress& progress, Structure& out)
+/// The atoms of a document: rows of a loop, or pairs, which are a loop of one row.
+Structure atomsOf(Block& block, const std::string& path)
 {
-    std::string head = "data_piece\nloop_\n";
-    for (const std::string& tag : rows.tags) head += tag + "\n";
-    AtomAdder atoms(block, path, out);
-    keepOnlyAtoms(block);
-    gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
-    if (!loop || loop->length() != 1)
-        throw std::runtime_error("the rows are those of another loop");
-    loop->values.clear();
-    out.atoms.reserve(rows.rows);
-    for (std::size_t k = 0; k + 1 < rows.cuts.size(); ++k) {
-        const std::string piece =
-            head + text.substr(rows.cuts[k], rows.cuts[k + 1] - rows.cuts[k]) + "\n";
-        gemmi::cif::Document document =
-            gemmi::cif::read_memory(piece.data(), piece.size(), path.c_str());
-        Block one("");
-        for (const gemmi::cif::Item& item : block.items)
-            if (!(item.type == gemmi::cif::ItemType::Loop && item.loop.values.empty()))
-                one.items.push_back(item);
-        one.items.push_back(std::move(document.sole_block().items.at(0)));
-        atoms.add(one, progress);
+    std::vector<std::string> tags, values;
+    if (gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop()) {
+        tags = loop->tags;
+        values = std::move(loop->values);
     }
-    atoms.finish();
+    for (const gemmi::cif::Item& item : block.items) {
+        if (item.type != gemmi::cif::ItemType::Pair ||
+            !gemmi::istarts_with(item.pair[0], "_atom_site."))
+            continue;
+        tags.push_back(item.pair[0]);
+        values.push_back(item.pair[1]);
+    }
+    AtomSite atoms(tags, path);
+    atoms.reserve(values.size() / tags.size());
+    Fields fields(tags.size());
+    for (std::size_t at = 0; at + fields.size() <= values.size(); at += fields.size()) {
+        std::copy_n(values.begin() + std::ptrdiff_t(at), fields.size(), fields.begin());
+        atoms.add(fields);
+    }
+    return atoms.finish(block);
 }
 
-/// @param[in] addRows  adds the atoms of the table _atom_site
-Structure structureOf(gemmi::cif::Document& document, const std::string& path,
-                      const Progress& progress,
-                      const std::function<void(Block& block, Structure& out)>& addRows)
-{
-    stopIfCancelled(progress);
-    Structure out;
-    Block& block = blockWithAtoms(document, path, out);
-    out.assemblies = readAssemblies(block);
-    out.plddt = namesPlddt(block);
-    out.bonds = readBonds(block);
-    Block spheres("");
-    if (hasSpheres(block)) spheres.items = block.items;
-    if (block.has_tag("_atom_site.Cartn_x")) addRows(block, out);
-    if (hasSpheres(spheres)) addSpheres(spheres, path, out);
-    dropPlainSerials(out);
-    return out;
-}
+/// A document of which the first table of atoms is read row by row, and keeps the first row alone:
+/// all of its values take twelve times the memory of the text.
+struct RowDocument : gemmi::cif::Document {
+    RowDocument(const std::string& file, const Progress& reader) : path(file), progress(reader) {}
+
+    const std::string& path;
+    const Progress& progress;
+    std::optional<AtomSite> atoms;
+    std::size_t likely = 0;       ///< number of atoms
+    std::size_t blockOfAtoms = 0; ///< counted from 1; 0: none yet
+    bool inAtoms = false;         ///< whether the present loop is a table of atoms
+    Fields row;
+    std::size_t rows = 0;
+
+    /// Takes a value of the present loop.
+    void take(std::string_view value)
+    {
+        gemmi::cif::Loop& loop = items_->back().loop;
+        if (loop.values.empty()) {
+            inAtoms = loop.has_tag("_atom_site.Cartn_x");
+            row.clear();
+        }
+        if (!inAtoms || loop.values.size() < loop.tags.size()) loop.values.emplace_back(value);
+        if (!inAtoms) return;
+        if (!atoms) {
+            atoms.emplace(loop.tags, path);
+            atoms->reserve(likely);
+        }
+        if (blockOfAtoms == 0) blockOfAtoms = blocks.size();
+        row.push_back(value);
+        if (row.size() < loop.tags.size()) return;
+        constexpr std::size_t often = 65536; // rows
+        if (++rows % often == 0) stopIfCancelled(progress);
+        if (blockOfAtoms == blocks.size()) atoms->add(row);
+        row.clear();
+    }
+};
+
+template<typename Rule>
+struct RowAction : gemmi::cif::Action<Rule> {
+};
+
+template<>
+struct RowAction<gemmi::cif::rules::loop_value> {
+    template<typename Input>
+    static void apply(const Input& in, RowDocument& out)
+    {
+        out.take({in.begin(), in.size()});
+    }
+};
+
+template<>
+struct RowAction<gemmi::cif::rules::loop> {
+    template<typename Input>
+    static void apply(const Input& in, RowDocument& out)
+    {
+        if (out.inAtoms && !out.row.empty())
+            throw tao::pegtl::parse_error("Wrong number of values in the loop", in);
+        out.inAtoms = false;
+        gemmi::cif::Action<gemmi::cif::rules::loop>::apply(in, out);
+    }
+};
 
 /// Refuses names that stand twice, as gemmi::cif::read_memory() does. That empties one table for
 /// each block, which takes the square of their number.
@@ -532,53 +530,39 @@ void checkDuplicates(gemmi::cif::Document& document)
     }
 }
 
-gemmi::cif::Document parseCif(const std::string& text, const std::string& path)
+void parseCif(const std::string& text, const std::string& path, RowDocument& document)
 {
     tao::pegtl::memory_input<> in(text.data(), text.size(), path);
-    gemmi::cif::Document document;
     document.source = path;
-    gemmi::cif::parse_input(document, in);
+    tao::pegtl::parse<gemmi::cif::rules::file, RowAction, gemmi::cif::Errors>(in, document);
     gemmi::cif::check_for_missing_values(document);
     checkDuplicates(document);
-    return document;
 }
 
-/// An mmCIF text whose rows of atoms are read piece by piece: a document of all of them takes
-/// twelve times the memory of the text.
-/// @throws std::exception if something is not as it was expected
-Structure readInPieces(const std::string& text, const CifRows& rows, const std::string& path,
-                       const Progress& progress)
+/// The structure of a document that is parsed.
+/// @param[in] rows  gives the atoms of the table _atom_site of a block
+template<typename Rows>
+Structure readDocument(gemmi::cif::Document& document, const std::string& path,
+                       const Progress& progress, const Rows& rows)
 {
-    const std::string rest = text.substr(0, rows.firstEnd) + text.substr(rows.cuts.back());
-    gemmi::cif::Document document = parseCif(rest, path);
-    return structureOf(document, path, progress, [&](Block& block, Structure& out) {
-        addPieces(block, text, rows, path, progress, out);
-    });
+    stopIfCancelled(progress);
+    std::vector<std::string> warnings;
+    Block& block = blockWithAtoms(document, path, warnings);
+    Structure out;
+    if (block.has_tag("_atom_site.Cartn_x"))
+        out = rows(block);
+    else if (!hasSpheres(block))
+        out = readSmallMolecule(block, path);
+    stopIfCancelled(progress);
+    out.assemblies = readAssemblies(block);
+    out.plddt = namesPlddt(block);
+    out.bonds = readBonds(block);
+    if (hasSpheres(block)) addSpheres(block, path, out);
+    out.warnings.insert(out.warnings.begin(), warnings.begin(), warnings.end());
+    return out;
 }
 
-/// The structure of a document that is parsed from text or bytes.
-template<typename Parse>
-Structure readDocument(std::string all, const std::string& path, const Progress& progress,
-                       std::size_t enough, const Parse& parse)
-{
-    try {
-        gemmi::cif::Document document = parse(all);
-        std::string().swap(all);
-        return structureOf(document, path, progress, [&](Block& block, Structure& out) {
-            AtomAdder atoms(block, path, out);
-            atoms.addInParts(block, enough, progress);
-            atoms.finish();
-        });
-    } catch (const Error&) {
-        throw;
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const std::exception& error) {
-        failAt(path, oneLine(error, path));
-    }
-}
-
-/// The categories that structureOf() reads.
+/// The categories that readDocument() reads.
 bool isRead(const std::string& category)
 {
     constexpr std::array<const char*, 13> read{"_atom_site",
@@ -610,42 +594,61 @@ void checkLines(const std::string& text, const std::string& path)
                            std::to_string(lines.line().size()));
 }
 
+bool isAtomRow(std::string_view line)
+{
+    return line.substr(0, 5) == "ATOM " || line.substr(0, 7) == "HETATM ";
+}
+
+/// Calls read(), whose errors name the file.
+template<typename Read>
+Structure reading(const std::string& path, const Read& read)
+{
+    try {
+        return read();
+    } catch (const Error&) {
+        throw;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::exception& error) {
+        failAt(path, oneLine(error, path));
+    }
+}
+
 } // namespace
 
 double bytesForMmcif(const std::string& text)
 {
-    constexpr double ofStructure = 3.0, perRow = 1.7e3; // a row of 21 values in a document
-    const std::optional<CifRows> rows = findCifRows(text, rowsOfPiece);
-    if (!rows) return cifDocumentPerByte * double(text.size());
-    return ofStructure * double(text.size()) + perRow * double(rows->longest);
+    constexpr double ofStructure = 3.0;
+    double bytes = 0.0;
+    for (LineReader lines(text); lines.next();) {
+        const bool atom = isAtomRow(lines.line());
+        bytes += (atom ? ofStructure : cifDocumentPerByte) * double(lines.line().size());
+    }
+    return bytes;
 }
 
 Structure readMmcif(std::string text, const std::string& path, const Progress& progress)
 {
-    return readMmcifInPieces(std::move(text), path, progress, rowsOfPiece);
-}
-
-Structure readMmcifInPieces(std::string text, const std::string& path, const Progress& progress,
-                            std::size_t enough)
-{
     checkLines(text, path);
-    const std::optional<CifRows> rows = findCifRows(text, enough);
-    if (rows && rows->cuts.size() > 2) {
-        try {
-            return readInPieces(text, *rows, path, progress);
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const std::exception&) { // read as a whole it gives the line
-        }
-    }
-    return readDocument(std::move(text), path, progress, enough,
-                        [&](const std::string& all) { return parseCif(all, path); });
+    return reading(path, [&] {
+        RowDocument document(path, progress);
+        for (LineReader lines(text); lines.next();) document.likely += isAtomRow(lines.line());
+        parseCif(text, path, document);
+        return readDocument(document, path, progress, [&](Block& block) {
+            const bool own = document.blockOfAtoms == std::size_t(&block - &document.blocks[0]) + 1;
+            return own ? document.atoms->finish(block) : atomsOf(block, path);
+        });
+    });
 }
 
 Structure readBinaryCif(std::string bytes, const std::string& path, const Progress& progress)
 {
-    return readDocument(std::move(bytes), path, progress, rowsOfPiece,
-                        [&](const std::string& all) { return decodeBinaryCif(all, path, isRead); });
+    return reading(path, [&] {
+        gemmi::cif::Document document = decodeBinaryCif(bytes, path, isRead);
+        std::string().swap(bytes);
+        return readDocument(document, path, progress,
+                            [&](Block& block) { return atomsOf(block, path); });
+    });
 }
 
 } // namespace molsurf

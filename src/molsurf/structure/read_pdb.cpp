@@ -2,10 +2,12 @@
 #include "molsurf/structure/readers.h"
 
 #include "molsurf/core/cancel.h"
+#include "molsurf/core/words.h"
 #include "molsurf/structure/assembly_operators.h"
 #include "molsurf/structure/atom_tree.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/guess_element.h"
+#include "molsurf/structure/pdb_columns.h"
 #include "molsurf/structure/residue_bonds.h"
 #include "molsurf/structure/residue_names.h"
 #include "molsurf/structure/text_fields.h"
@@ -16,8 +18,8 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace molsurf
@@ -27,109 +29,59 @@ namespace
 
 using std::string_view;
 
-/// The columns [first, first + size) of a line, counted from 0, without blanks around them.
-string_view columns(string_view line, std::size_t first, std::size_t size)
-{
-    return first < line.size() ? trimmed(line.substr(first, size)) : string_view();
-}
-
-char column(string_view line, std::size_t at)
-{
-    return at < line.size() ? line[at] : ' ';
-}
-
-/// The element of columns 77-78; empty if columns 73-80 hold something else than segment, element
-/// and charge, as the name of the entry and the number of the line before 1992 ("4AT1  83").
-string_view elementIn(string_view line)
-{
-    constexpr std::size_t at = 76;
-    if (line.size() <= at) return {};
-    const char first = line[at], second = column(line, at + 1);
-    const char digit = column(line, at + 2), sign = column(line, at + 3);
-    const auto good = [](char c) { return c == ' ' || isLetter(c); };
-    if (!good(first) || !good(second)) return {};
-    const auto isSign = [](char c) { return c == '+' || c == '-'; };
-    const bool charge = (digit == ' ' && sign == ' ') || (isDigit(digit) && isSign(sign)) ||
-                        (isSign(digit) && isDigit(sign));
-    if (!charge && (second == ' ' || isDigit(sign))) return {};
-    return trimmed(line.substr(at, 2));
-}
-
-/// How the atoms of a file use columns that programs use in several ways.
-struct Layout {
-    bool fourLetters = false; ///< columns 18-21 are the name of a residue, column 22 is the chain
-    bool placedNames = true;  ///< names begin in column 13 if their elements have two letters
-};
-
-/// Looks at all atoms before they are read.
-class LayoutFinder
-{
-public:
-    void add(string_view line)
-    {
-        ++atoms_;
-        if (column(line, 20) != ' ') wide_.emplace(line.substr(17, 5));
-        if (!layout_.placedNames || !isLetter(column(line, 12)) || column(line, 15) != ' ') return;
-        if (!isLetter(column(line, 13)) && elementIn(line).empty()) layout_.placedNames = false;
-    }
-
-    /// Columns 18-21 are a name where they hold a known one, or where column 22 is blank. A file in
-    /// which a known name is followed by two letters for the chain has such chains.
-    Layout layout()
-    {
-        bool known = false, blank = false;
-        for (const std::string& text : wide_) {
-            const string_view four = trimmed(string_view(text).substr(0, 4));
-            const string_view three = trimmed(string_view(text).substr(0, 3));
-            if (three.size() < 3 || nameClass(four) == NameClass::Unknown) {
-                const NameClass kind = nameClass(three);
-                if (text[4] != ' ' && kind != NameClass::Unknown) return layout_;
-                blank = blank || (text[4] == ' ' && three.size() == 3);
-            } else {
-                known = true;
-            }
-        }
-        layout_.fourLetters = known || blank;
-        return layout_;
-    }
-
-    std::size_t atoms() const { return atoms_; }
-
-private:
-    std::size_t atoms_ = 0;
-    Layout layout_;
-    std::set<std::string, std::less<>> wide_; ///< columns 18-22 of residues with a letter in 21
-};
-
-/// A number of a residue. Hybrid-36 counts on from 9999 in base 36: A000 (firstOfLetters) is 10000,
-/// and behind ZZZZ comes a000.
-int residueNumber(string_view field)
-{
-    int number = 0;
-    if (parseInteger(field, number) || field.empty()) return number;
-    if (field.size() == 4 && isLetter(field[0])) {
-        constexpr int base = 36, firstOfLetters = 466560, firstNumber = 10000;
-        constexpr int capitals = 26 * base * base * base; // from A000 to ZZZZ
-        for (const char c : field) {
-            const int lowered = std::tolower(static_cast<unsigned char>(c));
-            if (!isDigit(c) && !isLetter(c)) return 0;
-            number = base * number + (isDigit(c) ? c - '0' : lowered - 'a' + 10);
-        }
-        return number - firstOfLetters + firstNumber +
-               (std::islower(static_cast<unsigned char>(field[0])) ? capitals : 0);
-    }
-    std::size_t digits = field[0] == '-';
-    while (digits < field.size() && isDigit(field[digits])) ++digits;
-    parseInteger(field.substr(0, digits), number);
-    return number;
-}
-
 int modelNumber(string_view line, int previous)
 {
     const Fields fields = splitFields(line);
     int number = previous + 1;
     if (fields.size() > 1) parseInteger(fields[1], number);
     return number;
+}
+
+/// A number for the chain, residue and name of an atom.
+std::size_t hashOf(const Structure& structure, const Atom& atom)
+{
+    const Residue& r = residueOf(structure, atom);
+    const std::hash<std::string> ofText;
+    std::size_t hash = ofText(atom.name) * 31 + ofText(r.name);
+    for (const int part : {r.number, int(r.insertionCode), int(r.chain)})
+        hash = (hash ^ std::size_t(part)) * 0x9e3779b97f4a7c15u;
+    return hash;
+}
+
+/// END ends a frame, which has at least half of the atoms of the first one, or these half of its
+/// own. What has others is another molecule of
+/// the same structure, as behind the END of a receptor the ligand that cat appended.
+/// @param[in] named  whether MODEL begins models: then a warning names those of other atoms
+void joinMolecules(Structure& structure, bool named)
+{
+    std::vector<Model>& models = structure.models;
+    if (models.size() < 2) return;
+    const auto at = [&](std::size_t i) { return structure.atoms.begin() + std::ptrdiff_t(i); };
+    std::unordered_set<std::size_t> first;
+    for (std::size_t i = models[0].begin; i < models[0].end; ++i)
+        first.insert(hashOf(structure, structure.atoms[i]));
+    std::vector<Model> frames{models[0]};
+    for (std::size_t m = 1; m < models.size(); ++m) {
+        const auto same = std::count_if(at(models[m].begin), at(models[m].end), [&](const Atom& a) {
+            return first.count(hashOf(structure, a)) > 0;
+        });
+        if (2 * std::size_t(same) >= std::min(first.size(), models[m].end - models[m].begin))
+            frames.push_back({int(frames.size()) + 1, models[m].begin, models[m].end});
+        else
+            frames.back().end = models[m].end;
+    }
+    if (frames.size() == models.size()) return;
+    if (named) {
+        structure.warnings.push_back(
+            counted(models.size() - frames.size(), "model has", "models have") +
+            " other atoms than the first one");
+        return;
+    }
+    structure.warnings.push_back(
+        "END stands between molecules of other atoms: " + std::to_string(models.size()) +
+        " were read as " + counted(frames.size(), "model", "models"));
+    models = std::move(frames);
+    structure.bonds = nullptr; // numbers of atoms begin anew in each
 }
 
 /// Reads the records of a PDB or PDBQT file.
@@ -140,7 +92,7 @@ public:
 
     Structure read(const std::string& text, const Progress& progress)
     {
-        LayoutFinder finder;
+        PdbLayoutFinder finder;
         // CONECT comes first, too: names are kept of those atoms alone that a bond asks for.
         for (LineReader lines(text); lines.next();) {
             if (isAtomRecord(lines.line()))
@@ -149,6 +101,7 @@ public:
                 connect(lines.line());
         }
         layout_ = finder.layout();
+        layout_.autoDock = autoDock_;
         constexpr std::size_t shortest = 54; // of the line of an atom
         tree_.reserve(std::min(finder.atoms(), text.size() / shortest + 1));
         stopIfCancelled(progress);
@@ -159,6 +112,7 @@ public:
         auto ncs = parseMtrix(matrices_, out.warnings);
         if (ncs) out.assemblies.push_back(std::move(*ncs));
         out.bonds = bonds();
+        joinMolecules(out, explicitModels_);
         if (autoDock_ && charges_.size() == out.atoms.size()) out.charges = std::move(charges_);
         return out;
     }
@@ -205,6 +159,7 @@ private:
         } else if (name.substr(0, 5) == "MODEL") {
             next_ = modelNumber(line, last_);
             inModel_ = false;
+            explicitModels_ = true;
         } else if (name == "ENDMDL" || trimmed(name) == "END") {
             if (inModel_) next_ = last_ + 1;
             inModel_ = false;
@@ -219,69 +174,14 @@ private:
 
     void atom(const LineReader& lines)
     {
-        const string_view line = lines.line();
-        AtomLine atom;
-        atom.position = position(lines);
-        const bool four = layout_.fourLetters;
-        atom.chain = four ? columns(line, 21, 1) : columns(line, 20, 2);
-        atom.residue = columns(line, 17, four ? 4 : 3);
-        atom.name = columns(line, 12, 4);
-        atom.segment = segment(line);
-        atom.number = residueNumber(columns(line, 22, 4));
-        parseInteger(columns(line, 6, 5), atom.serial);
-        atom.insertionCode = column(line, 26);
-        atom.hetatm = line[0] == 'H';
-        atom.altloc = column(line, 16) == ' ' ? '\0' : line[16];
-        double value = 0.0;
-        if (parseNumber(columns(line, 54, 6), value)) atom.occupancy = float(value);
-        if (parseNumber(columns(line, 60, 6), value)) atom.bFactor = float(value);
-        if (autoDock_)
-            autoDockType(line, atom);
-        else
-            element(line, atom);
+        AtomLine atom = atomInColumns(lines.line(), layout_);
+        atom.position = placeInColumns(path_, lines);
+        if (layout_.autoDock) autoDockType(lines.line(), atom);
         const auto end = ends_.find(atom.serial);
         if (end != ends_.end() && !end->second)
             end->second = {std::string(atom.chain), atom.number, atom.insertionCode,
                            std::string(atom.name)};
         tree_.add(atom);
-    }
-
-    /// Columns 73-76, but for those of AutoDock, which are of the charge, and for the name of the
-    /// entry, before 1992.
-    string_view segment(string_view line) const
-    {
-        const bool old = elementIn(line).empty() && !columns(line, 76, 4).empty();
-        return autoDock_ || old ? string_view() : columns(line, 72, 4);
-    }
-
-    openvdb::Vec3d position(const LineReader& lines) const
-    {
-        constexpr std::size_t first = 30, width = 8;
-        openvdb::Vec3d out;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::size_t begin = first + axis * width;
-            const string_view field = columns(lines.line(), begin, width);
-            double value = 0;
-            if (!parseNumber(field, value))
-                failAtLine(path_, lines,
-                           std::string(1, "xyz"[axis]) + ": expected a number in columns " +
-                               std::to_string(begin + 1) + "-" + std::to_string(begin + width) +
-                               ", got " + inQuotes(field) + " in the line " +
-                               inQuotes(lines.line()));
-            out[int(axis)] = value;
-        }
-        return out;
-    }
-
-    void element(string_view line, AtomLine& atom) const
-    {
-        const string_view symbol = elementIn(line);
-        atom.inFirstColumn =
-            layout_.placedNames && isLetter(column(line, 12)) && atom.name.size() < 4;
-        if (symbol.empty()) return;
-        atom.element = elementNumber(std::string(symbol));
-        if (atom.element == 0 && isParticleSymbol(symbol)) atom.role = AtomRole::Particle;
-        if (isMisread(std::uint8_t(atom.element), atom.name, atom.residue)) atom.element = 0;
     }
 
     void autoDockType(string_view line, AtomLine& atom)
@@ -307,7 +207,7 @@ private:
 
     const std::string& path_;
     bool autoDock_;
-    Layout layout_;
+    PdbLayout layout_;
     AtomTree tree_;
     std::vector<string_view> remarks_, matrices_;
     std::vector<float> charges_;
@@ -315,7 +215,7 @@ private:
     std::map<std::pair<int, int>, std::array<int, 2>> connected_;
     std::unordered_map<int, std::optional<FileBonds::End>> ends_;
     int next_ = 1, last_ = 0; ///< numbers of the model that the next atom starts, and of the last
-    bool inModel_ = false;
+    bool inModel_ = false, explicitModels_ = false;
 };
 
 } // namespace

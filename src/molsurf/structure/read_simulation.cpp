@@ -117,7 +117,7 @@ AtomLine psfAtom(const LineReader& lines, const std::string& path)
     }
     if (!parseInteger(number, atom.number))
         failAtLine(path, lines, "expected a residue number, got " + inQuotes(fields[Number]));
-    atom.chain = fields[Segment];
+    atom.chain = atom.segment = fields[Segment];
     atom.residue = fields[Residue];
     atom.name = fields[Name];
     parseInteger(fields[Serial], atom.serial);

@@ -130,13 +130,8 @@ Structure readXyz(const std::string& text, const std::string& path)
         const string_view line = trimmed(lines.line());
         if (line.empty()) continue; // between frames and at the end
         int count = 0;
-        if (!parseInteger(line, count) || count < 0) {
-            const bool tinker = parseInteger(splitFields(line)[0], count) && model == 1;
-            failAtLine(path, lines,
-                       "expected the number of atoms, got " + inQuotes(line) +
-                           (tinker ? " [hint: Open Babel turns Tinker's files, txyz, into FILE.pdb]"
-                                   : ""));
-        }
+        if (!parseInteger(line, count) || count < 0)
+            failAtLine(path, lines, "expected the number of atoms, got " + inQuotes(line));
         tree.startModel(model++);
         readFrame(lines, path, count, names, tree);
     }

@@ -26,10 +26,10 @@ Structure readPdb(std::string text, const std::string& path, const Progress& pro
 /// @throws Error as readPdb()
 Structure readPdbqt(std::string text, const std::string& path, const Progress& progress);
 
-// read_macromolecule: mmCIF and BinaryCIF by way of gemmi.
+// read_macromolecule: mmCIF and BinaryCIF.
 
 /// Reads the text of an mmCIF file: the first data block that has atoms, or spheres of an
-/// integrative model.
+/// integrative model, or a component or a crystal of a small molecule.
 /// @param[in] text  consumed, to save memory
 /// @throws Error(ErrorKind::Input) if it cannot be read, or if no data block has atoms
 Structure readMmcif(std::string text, const std::string& path, const Progress& progress);
@@ -40,11 +40,6 @@ constexpr double cifDocumentPerByte = 21.0;
 
 /// Memory that reading such a text takes beside it [byte].
 double bytesForMmcif(const std::string& text);
-
-/// The same as readMmcif().
-/// @param[in] enough  atoms that are parsed at once, or more where a chain has more
-Structure readMmcifInPieces(std::string text, const std::string& path, const Progress& progress,
-                            std::size_t enough);
 
 /// The same of a BinaryCIF file.
 Structure readBinaryCif(std::string bytes, const std::string& path, const Progress& progress);

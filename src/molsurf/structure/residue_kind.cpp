@@ -175,7 +175,8 @@ private:
         for (std::size_t i = 0; i < members.size(); ++i) {
             Atom& atom = members[i];
             if (atom.name.empty() || atom.radius >= 0.0 || atom.role != AtomRole::Atom) continue;
-            bool particle = atom.element == 0 && isParticleName(atom.name);
+            bool particle =
+                (atom.element == 0 && isParticleName(atom.name)) || isMark(at(r).name, atom.name);
             if (kind == NameClass::Water)
                 particle = particle || atom.name == "OM" || atom.name == "MW" ||
                            (atom.element == 0 && members.size() > 1);
@@ -269,12 +270,14 @@ private:
             return ResidueKind::Water;
         if (all.ionic == all.atoms && all.oneElement && (all.atoms == 1 || name == NameClass::Ion))
             return ResidueKind::Ion;
-        if (at(r).entity == EntityHint::Polymer) return ResidueKind::Modified;
-        if (at(r).entity == EntityHint::None && isBonded(r)) return ResidueKind::Modified;
+        if (at(r).entity != EntityHint::Other && isBonded(r)) return ResidueKind::Modified;
         if (name == NameClass::ModifiedAminoAcid || name == NameClass::ModifiedNucleotide ||
             name == NameClass::Cap)
             return linkKind(r, ResidueKind::Modified);
         const ResidueKind known = moleculeKind(name, members, all);
+        // Glycans are polymers in files of before July 2020.
+        if (at(r).entity == EntityHint::Polymer && known != ResidueKind::Sugar)
+            return ResidueKind::Modified;
         if (known != ResidueKind::Ligand) return known;
         const bool link = at(r).entity == EntityHint::None && isFlanked(r);
         return link ? ResidueKind::Modified : ResidueKind::Ligand;

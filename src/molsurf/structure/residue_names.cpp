@@ -169,11 +169,6 @@ NameClass nameClass(string_view residue)
     return ionElement(residue) != 0 ? NameClass::Ion : NameClass::Unknown;
 }
 
-bool isWaterName(string_view residue)
-{
-    return nameClass(residue) == NameClass::Water;
-}
-
 bool isStandardResidue(string_view residue)
 {
     const NameClass kind = nameClass(residue);

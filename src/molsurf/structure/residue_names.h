@@ -44,9 +44,6 @@ NameClass nameClass(std::string_view residue);
 /// "NA", "NA+" and "Na+" are sodium, "CAL", "CA2+" calcium. A charge has one digit.
 std::uint8_t ionElement(std::string_view name);
 
-/// True for the names of water: "HOH", "TIP3", "SOL", ...
-bool isWaterName(std::string_view residue);
-
 /// True for the amino acids and nucleotides that have no other form, by any of their names.
 bool isStandardResidue(std::string_view residue);
 

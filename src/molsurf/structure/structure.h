@@ -48,6 +48,7 @@ struct Residue {
     bool hetatm = false; ///< whether its record in the file is HETATM
     ResidueKind kind = ResidueKind::Protein;
     EntityHint entity = EntityHint::None;
+    std::int32_t segment = -1; ///< index into Structure::segments; -1: none
 
     bool water() const { return kind == ResidueKind::Water; }
     /// A link of a chain, or a bead.
@@ -119,8 +120,9 @@ struct Structure {
     std::vector<Model> models;
     std::vector<Atom> atoms;
     std::vector<Residue> residues;
-    std::vector<std::string> chains; ///< author's names (auth_asym_id in mmCIF)
-    std::vector<std::string> asyms;  ///< label_asym_id in mmCIF; elsewhere the same as chains
+    std::vector<std::string> chains;   ///< author's names (auth_asym_id in mmCIF)
+    std::vector<std::string> asyms;    ///< label_asym_id in mmCIF; elsewhere the same as chains
+    std::vector<std::string> segments; ///< columns 73-76 of a PDB file, segments of a .psf
     std::vector<Assembly> assemblies;
     BeadKind beads = BeadKind::None;
     std::vector<std::int32_t> serials; ///< of the atoms, as the file numbers them; empty: from 1 in

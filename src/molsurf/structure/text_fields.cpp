@@ -86,7 +86,12 @@ void splitFields(std::string_view line, Fields& fields)
 
 bool parseNumber(std::string_view field, double& value)
 {
-    return parse(field, value);
+    if (parse(field, value)) return true;
+    const std::size_t exponent = field.find_first_of("dD"); // 1.5D+01 of Fortran
+    if (exponent == std::string_view::npos || exponent == 0) return false;
+    std::string text(field);
+    text[exponent] = 'e';
+    return parse(std::string_view(text), value);
 }
 
 bool parseInteger(std::string_view field, int& value)

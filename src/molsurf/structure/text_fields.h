@@ -38,8 +38,9 @@ Fields splitFields(std::string_view line);
 /// The same into a list that keeps its memory from line to line.
 void splitFields(std::string_view line, Fields& fields);
 
-/// Reads a decimal number that fills the whole field; a leading '+' is allowed, and so are nan and
-/// inf. False, and `value` as it was, if the field holds anything else.
+/// Reads a decimal number that fills the whole field; a leading '+' is allowed, and so are nan,
+/// inf and the D of Fortran's exponents. False, and `value` as it was, if the field holds anything
+/// else.
 bool parseNumber(std::string_view field, double& value);
 
 /// The same for an integer.

@@ -38,12 +38,33 @@ std::string chosen(const std::string& text, const std::string& altloc = "")
     return names;
 }
 
-TEST(Altloc, KeepsTheHighestOccupancyOfEachAtom)
+TEST(Altloc, KeepsTheReadingOfTheLargestSum)
 {
     EXPECT_EQ(chosen(atom("N", ' ', "SER", 1, 1) + atom("CA", 'A', "SER", 1, 0.3) +
                      atom("CA", 'B', "SER", 1, 0.7) + atom("CB", 'A', "SER", 1, 0.6) +
                      atom("CB", 'B', "SER", 1, 0.4)),
-              "N CA:B CB:A");
+              "N CA:B CB:B");
+}
+
+// A location without a letter is a reading beside those of the same atoms with one.
+TEST(Altloc, ABlankLocationIsAReading)
+{
+    const std::string blank = atom("CA", ' ', "SER", 1, 0.6) + atom("CB", ' ', "SER", 1, 0.6),
+                      other = atom("CA", 'B', "SER", 1, 0.4) + atom("CB", 'B', "SER", 1, 0.4),
+                      alone = atom("N", ' ', "SER", 1, 1);
+    EXPECT_EQ(chosen(alone + blank + other), "N CA CB");
+    EXPECT_EQ(chosen(alone + blank + other, "B"), "N CA:B CB:B");
+    EXPECT_EQ(chosen(alone + blank + other, "all"), "N CA CB CA:B CB:B");
+    EXPECT_EQ(chosen(alone + atom("CA", ' ', "SER", 1, 0.3) + atom("CA", 'B', "SER", 1, 0.7)),
+              "N CA:B");
+}
+
+// Occupancies of the names that readings share decide, not those of their own.
+TEST(Altloc, AtomsOfItsOwnGiveAReadingNoWeight)
+{
+    EXPECT_EQ(chosen(atom("CB", 'A', "SER", 1, 0.6) + atom("CB", 'B', "SER", 1, 0.4) +
+                     atom("OG", 'B', "SER", 1, 0.4)),
+              "CB:A");
 }
 
 TEST(Altloc, ATieKeepsOneConformer)

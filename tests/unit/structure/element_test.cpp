@@ -118,9 +118,10 @@ TEST(ResidueKind, KnowsTheNamesOfWater)
 {
     for (const char* name :
          {"HOH", "WAT", "DOD", "H2O", "TIP3", "TIP", "SOL", "TP3M", "SWM4", "OPC"}) {
-        EXPECT_TRUE(isWaterName(name)) << name;
+        EXPECT_EQ(nameClass(name), NameClass::Water) << name;
     }
-    for (const char* name : {"", "ALA", "OH", "HO4"}) EXPECT_FALSE(isWaterName(name)) << name;
+    for (const char* name : {"", "ALA", "OH", "HO4"})
+        EXPECT_NE(nameClass(name), NameClass::Water) << name;
 }
 
 } // namespace

@@ -58,6 +58,30 @@ TEST(ReadPqr, SplitsNumbersGluedByAMinusSign)
     EXPECT_EQ(s.chains[1], "A");
 }
 
+/// Columns 31-54 have the coordinates where eight characters leave no room between them.
+TEST(ReadPqr, SplitsCoordinatesThatTouch)
+{
+    const Structure s = readStructure(
+        TempFile("a.pqr",
+                 "ATOM      1  CA  ALA A   7    1009.6762995.631-900.515  -0.1000 1.7000\n"
+                 "ATOM      2  CB  ALA A   7    1010.0002995.0003000.500  0.1000 1.5D+00\n")
+            .path());
+    const std::string two =
+        "ATOM      3  CG  ALA A   7    1009.6762995.631 -90.515  -0.1000 1.7000\n"
+        "ATOM 4 CD ALA A 7 10.25-2.5 3.75 -0.1000 1.7000\n";
+    const Structure t = readStructure(TempFile("b.pqr", two).path());
+    EXPECT_EQ(t.atoms[0].position, openvdb::Vec3d(1009.676, 2995.631, -90.515));
+    EXPECT_EQ(t.atoms[1].position, openvdb::Vec3d(10.25, -2.5, 3.75)); // free of columns
+    ASSERT_EQ(s.atoms.size(), 2u);
+    EXPECT_EQ(s.atoms[0].position, openvdb::Vec3d(1009.676, 2995.631, -900.515));
+    EXPECT_EQ(s.atoms[1].position.z(), 3000.5);
+    EXPECT_EQ(s.atoms[1].name, "CB");
+    EXPECT_EQ(s.atoms[1].radius, 1.5);
+    EXPECT_EQ(s.residues.size(), 1u);
+    EXPECT_EQ(s.residues[0].number, 7);
+    EXPECT_FLOAT_EQ(s.charges[0], -0.1f);
+}
+
 TEST(ReadPqr, ReadsModels)
 {
     const std::string atom = "ATOM 1 N ALA 4 1 2 3 0.1 1.8\n";

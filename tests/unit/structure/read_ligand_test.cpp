@@ -182,6 +182,42 @@ TEST(ReadMol2, NamesOfResiduesMayEndWithDigits)
     EXPECT_EQ(residue("PO412", ""), "PO4 12");
 }
 
+/// A .mol2 file of carbons with these fields behind the type.
+std::string carbons(const std::vector<std::string>& ends)
+{
+    std::string text = "@<TRIPOS>MOLECULE\nname\n\n@<TRIPOS>ATOM\n";
+    for (std::size_t i = 0; i < ends.size(); ++i)
+        text += std::to_string(i + 1) + " C" + std::to_string(i + 1) + " " +
+                std::to_string(1.5 * double(i)) + " 0 0 C.3 " + ends[i] + "\n";
+    return text;
+}
+
+TEST(ReadMol2, NamesOfAmbersEndsHaveDigits)
+{
+    const auto residues = [](const std::vector<std::string>& ends) {
+        std::string out;
+        for (const Residue& r : readLigand(carbons(ends)).residues)
+            out += r.name + " " + std::to_string(r.number) + ", ";
+        return out;
+    };
+    EXPECT_EQ(residues({"1 DA5", "2 DC", "3 DT3"}), "DA5 1, DC 2, DT3 3, ");
+    EXPECT_EQ(residues({"1 DA5", "2 DT3"}), "DA5 1, DT3 2, ");
+    EXPECT_EQ(residues({"1 DA5", "2 DC6", "3 HOH7"}), "DA 5, DC 6, HOH 7, ");
+    EXPECT_EQ(residues({"1 ALA", "2 LIG2"}), "ALA 1, LIG2 2, ");
+}
+
+TEST(ReadMol2, SubstructuresMayHaveNoNames)
+{
+    for (const char* end : {"7 -0.25", "-0.25"}) { // of GOLD and of DOCK 3.7
+        const Structure s = readLigand(carbons({end, end}));
+        ASSERT_EQ(s.residues.size(), 1u) << end;
+        EXPECT_EQ(s.residues[0].name, "");
+        EXPECT_EQ(s.residues[0].number, end[0] == '7' ? 7 : 0);
+        EXPECT_EQ(s.charges, (std::vector<float>{-0.25f, -0.25f}));
+    }
+    EXPECT_EQ(readLigand(carbons({"1 LIG 0.5"})).charges, std::vector<float>{0.5f});
+}
+
 TEST(ReadSdf, ADrawingBesideConformersIsRefusedWhereItIsAskedFor)
 {
     const std::string head =

@@ -381,6 +381,8 @@ TEST(ReadPdb, SegmentsKeepResiduesApart)
     const std::string head = atom.substr(0, 72);
     EXPECT_EQ(readPdb(head + "PROA    \n" + head + "PROB    \n").residues.size(), 2u);
     EXPECT_EQ(readPdb(head + "PROA\n" + head + "PROB\n").residues.size(), 2u);
+    const std::string other = head.substr(0, 13) + "CB" + head.substr(15);
+    EXPECT_EQ(readPdb(head + "1\n" + other + "2\n").residues.size(), 1u) << "no name comes again";
     EXPECT_EQ(readPdb(head + "1ABC   8\n" + head + "1ABD   9\n").residues.size(), 1u);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/parse_words.h"
+#include "molsurf/selection/parse_selection.h"
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
@@ -69,6 +69,7 @@ public:
     }
     bool atEnd() const { return at_ >= text_.size(); }
     string_view rest() const { return string_view(text_).substr(at_); }
+    string_view before() const { return string_view(text_).substr(0, at_); }
     string_view from(std::size_t begin) const
     {
         return trimmed(string_view(text_).substr(begin, at_ - begin));
@@ -122,10 +123,12 @@ public:
         std::size_t column = 1; // of characters
         for (std::size_t i = 0; i < here.at_ && i < text_.size(); ++i)
             column += (text_[i] & 0xc0) != 0x80;
+        const std::string foreign = foreignWord(got);
         throw Error(
             ErrorKind::Usage,
             "selection " + inQuotes(text_) + ": expected " + expected + ", got " +
-                (got.empty() ? "the end" : inQuotes(got) + " at " + std::to_string(column)) + hint);
+                (got.empty() ? "the end" : inQuotes(got) + " at " + std::to_string(column)) +
+                (foreign.empty() ? hint : " [hint: not known here; write " + foreign + "]"));
     }
 
 private:
@@ -144,8 +147,9 @@ private:
 class ValueReader
 {
 public:
-    ValueReader(Letters& in, const PropertyWord& property, string_view word)
-        : in_(in), property_(property), word_(word)
+    ValueReader(Letters& in, const Structure& structure, const PropertyWord& property,
+                string_view word)
+        : in_(in), structure_(structure), property_(property), word_(word)
     {
     }
 
@@ -236,11 +240,12 @@ private:
             const std::size_t end = in_.rest().find(quote, 1);
             if (end == string_view::npos)
                 in_.fail("a quote at the end of " + std::string(property_.what));
-            NameGlob out{std::string(in_.rest().substr(1, end - 1)), false};
+            NameGlob out{std::string(in_.rest().substr(1, end - 1)), false, true};
             in_.goTo(in_.at() + end + 1);
             return out;
         }
         const string_view token = in_.token();
+        refuseForeign(token);
         std::size_t end = 0;
         while (end < token.size() && !isJoin(token, end)) ++end;
         if (end == 0) in_.fail(property_.what);
@@ -248,6 +253,17 @@ private:
         out.pattern = out.text.find_first_of("*?") != std::string::npos;
         in_.goTo(in_.at() + end);
         return out;
+    }
+
+    /// Refuses a word of another program, unless it is a name in the file.
+    void refuseForeign(string_view token) const
+    {
+        if (foreignWord(token).empty() || !property_.text) return;
+        const bool name =
+            std::any_of(structure_.atoms.begin(), structure_.atoms.end(), [&](const Atom& atom) {
+                return property_.text(structure_, atom) == token;
+            });
+        if (!name) in_.fail(std::string(property_.what) + ", an operator or the end");
     }
 
     /// Whether a + or a comma parts values: at the end of a token a + is a charge, as in NA+.
@@ -330,20 +346,21 @@ private:
     }
 
     Letters& in_;
+    const Structure& structure_;
     const PropertyWord& property_;
     std::string word_;
 };
 
-/// Recursive descent: a function for each rule of the grammar at parseWords().
-class WordParser
+/// Recursive descent: a function for each rule of the grammar at parseSelection().
+class SelectionParser
 {
 public:
-    WordParser(const std::string& text, const Structure& structure)
+    SelectionParser(const std::string& text, const Structure& structure)
         : in_(text), structure_(structure)
     {
     }
 
-    WordSelection parse()
+    Selection parse()
     {
         const SubTree tree = expression(&out_.alternatives);
         in_.skipBlanks();
@@ -356,7 +373,7 @@ public:
 
 private:
     using Does = SelectionOperator;
-    using Alternatives = std::vector<WordSelection::Alternative>;
+    using Alternatives = std::vector<Selection::Alternative>;
     static constexpr std::size_t none = std::string::npos;
 
     static std::vector<std::string> joiners()
@@ -368,7 +385,7 @@ private:
     class Depth
     {
     public:
-        explicit Depth(WordParser& parser) : parser_(parser)
+        explicit Depth(SelectionParser& parser) : parser_(parser)
         {
             constexpr int most = 100;
             if (++parser_.depth_ > most) parser_.in_.fail("at most 100 operators in each other");
@@ -378,7 +395,7 @@ private:
         Depth& operator=(const Depth&) = delete;
 
     private:
-        WordParser& parser_;
+        SelectionParser& parser_;
     };
 
     /// The operator that stands here; null if it is none.
@@ -471,7 +488,7 @@ private:
         in_.skipBlanks();
         if (in_.peek() == '(') return bracket();
         const auto word = in_.atEnd() ? std::nullopt : in_.word();
-        if (!word) return pattern();
+        if (!word || isInvertedPhrase() || isChainAlone(*word)) return phrase();
         if (word->isOperator) return operation(*word->isOperator);
         if (word->isClass) {
             takeToken();
@@ -495,12 +512,12 @@ private:
         const std::size_t begin = in_.at();
         const std::string word = takeToken();
         in_.skipBlanks();
-        if (word.size() == 1 && !isIn("<>=!", in_.peek()) &&
-            hasChain(structure_, word)) { // as "b", of which there is a chain
-            in_.goTo(begin);
-            return pattern();
-        }
-        return ValueReader(in_, property, word).read();
+        const bool compared = isIn("<>=!", in_.peek());
+        in_.goTo(begin);
+        if (word.size() == 1 && !compared && (hasChain(structure_, word) || isAlone(word)))
+            return phrase(); // "b" is a chain, too
+        takeToken();
+        return ValueReader(in_, structure_, property, word).read();
     }
 
     SubTree operation(const OperatorWord& word)
@@ -591,7 +608,7 @@ private:
 
     SubTree bracket()
     {
-        if (const SubTree residues = residuesInBrackets()) return residues;
+        if (SubTree residues = residuesInBrackets()) return residues;
         const std::size_t begin = in_.at();
         in_.take('(');
         const SubTree tree = expression();
@@ -612,17 +629,19 @@ private:
             inside.find_first_of(" (|&<>=") != std::string::npos)
             return nullptr;
         const bool chain = hasChain(structure_, inside) && !hasResidue(structure_, inside);
-        return chain ? nullptr : patternOf(patternText());
+        return chain ? nullptr : phraseOf(phraseText());
     }
 
-    /// A possible phrase of gemmi's here: all up to a blank, | or & outside of its brackets and
-    /// quotes, or a bracket that closes another.
-    std::string patternText() const
+    /// The phrase of gemmi's that begins here: all up to a blank, | or & outside of its brackets
+    /// and quotes, or a bracket that closes another. Blanks may stand beside < = > of its
+    /// properties.
+    std::string phraseText() const
     {
         const string_view rest = in_.rest();
         int open = 0;
         char quote = '\0';
         std::size_t end = 0;
+        bool property = false;
         for (; end < rest.size(); ++end) {
             const char c = rest[end];
             const bool begins = end == 0 || isIn(",/([!", rest[end - 1]);
@@ -630,82 +649,112 @@ private:
                 if (c == quote) quote = '\0';
             } else if (isIn("\"'", c) && begins) {
                 quote = c;
-            } else if (isIn(blanks, c) || isIn("|&", c) || (c == ')' && open == 0)) {
+            } else if (isIn("|&", c) || (c == ')' && open == 0) ||
+                       (isIn(blanks, c) && !(property && isBesideRelation(rest, end)))) {
                 break;
             } else {
                 open += (c == '(') - (c == ')');
+                property = property || c == ';';
             }
         }
-        return std::string(rest.substr(0, end));
+        return std::string(trimmed(rest.substr(0, end)));
     }
 
-    /// A phrase of gemmi's; null if it is none.
-    SubTree patternOf(const std::string& text)
+    /// Whether < = or > is next to the blanks at a place.
+    static bool isBesideRelation(string_view text, std::size_t at)
     {
-        SelectionPattern found;
-        try {
-            found = parseSelection(text);
-        } catch (const Error&) {
-            return nullptr;
-        }
+        const std::size_t before = text.find_last_not_of(blanks, at),
+                          behind = text.find_first_not_of(blanks, at);
+        return (before != none && isIn("<=>", text[before])) ||
+               (behind != none && isIn("<=>", text[behind]));
+    }
+
+    SubTree phraseOf(const std::string& text)
+    {
+        SelectionPattern found = readPhrase(text);
         in_.goTo(in_.at() + text.size());
         out_.models.push_back(found.model);
         return treeOf(PatternTest{std::move(found)});
     }
 
-    SubTree pattern()
+    /// Whether "!A/10" stands here, all chains but A, and not the word `not`.
+    bool isInvertedPhrase() const
     {
-        const std::string text = patternText();
-        if (text.empty()) failAtOperand();
+        return in_.peek() == '!' && in_.peek(1) != '(' && phraseText().find_first_of("/;[") != none;
+    }
+
+    /// Whether nothing but | is beside what stands here.
+    bool isAlone(string_view text) const
+    {
+        const string_view before = in_.before();
+        const std::size_t last = before.find_last_not_of(blanks),
+                          next = in_.rest().find_first_not_of(blanks, text.size());
+        return (last == none || before[last] == '|') && (next == none || in_.rest()[next] == '|');
+    }
+
+    /// Whether the word that stands here is alone, and the name of a chain.
+    bool isChainAlone(const SelectionWord& word)
+    {
+        const std::string text = phraseText();
+        if (!word.isClass || text == "*" || !isAlone(text) || !hasChain(structure_, text))
+            return false;
+        out_.notes.push_back(text + " was read as the chain " + text + " [hint: (" + text +
+                             ") is the word]");
+        return true;
+    }
+
+    SubTree phrase()
+    {
+        const std::string text = phraseText();
+        const std::size_t bracket = text.find('('); // of a function, as in sqr(x)
+        if (text.empty() || (bracket != none && !foreignWord(text.substr(0, bracket)).empty()))
+            failAtOperand();
         // A name alone may be a word with a slip.
-        const bool nameAlone = text.find_first_of("/[(;:,*!\"'") == std::string::npos &&
-                               !isDigit(text[0]) && text[0] != '-';
-        if (nameAlone && !hasChain(structure_, text)) failAtOperand();
-        if (const SubTree tree = patternOf(text)) return tree;
-        failAtOperand();
+        const bool name = text.find_first_of("/[(;:,*!\"'") == none && !isDigit(text[0]) &&
+                          text[0] != '-' && text[0] != '.';
+        if (!name || hasChain(structure_, text)) return phraseOf(text);
+        if (!isAlone(text) || !isLetter(text[0]) || !foreignWord(text).empty() ||
+            !nearWord(text).empty())
+            failAtOperand();
+        out_.hint = hintOn(text);
+        return phraseOf(text);
+    }
+
+    /// " [hint: did you mean ...?]" of a word near to one that is no name of the file; else empty.
+    std::string nearWord(const std::string& word) const
+    {
+        constexpr std::size_t shortest = 4; // shorter ones are near to too many
+        if (word.size() < shortest || hasResidue(structure_, word) || hasAtom(structure_, word))
+            return "";
+        return didYouMean(word, selectionWords());
+    }
+
+    /// A hint on what an unknown word may stand for: a name of the file, or a word near to it.
+    std::string hintOn(const std::string& word) const
+    {
+        if (word.empty() || !isLetter(word[0])) return "";
+        if (hasResidue(structure_, word)) return " [hint: resname " + word + "]";
+        if (hasAtom(structure_, word)) return " [hint: name " + word + "]";
+        return nearWord(word);
     }
 
     [[noreturn]] void failAtOperand() const
     {
         in_.fail("a word such as protein, chain or within",
-                 in_.atEnd() ? "" : hintOn(std::string(in_.token()), structure_));
+                 in_.atEnd() ? "" : hintOn(std::string(in_.token())));
     }
 
     Letters in_;
     const Structure& structure_;
-    WordSelection out_;
+    Selection out_;
     int depth_ = 0;
 };
 
 } // namespace
 
-WordSelection parseWords(const std::string& text, const Structure& structure)
+Selection parseSelection(const std::string& text, const Structure& structure)
 {
-    return WordParser(text, structure).parse();
-}
-
-bool hasWords(const std::string& text)
-{
-    constexpr const char* parts = " \t\r\n()|&!<>=";
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find_first_of(parts, begin), text.size());
-        const std::size_t next = text.find_first_not_of(" ", end);
-        const bool compared = next != std::string::npos && isIn("<>=!", text[next]);
-        if ((end - begin > 1 || (end > begin && compared)) &&
-            selectionWord(string_view(text).substr(begin, end - begin)))
-            return true;
-        begin = end + 1;
-    }
-    return false;
-}
-
-std::string hintOn(const std::string& word, const Structure& structure)
-{
-    constexpr std::size_t shortest = 4; // shorter ones are near to too many
-    if (word.empty() || !isLetter(word[0])) return "";
-    if (hasResidue(structure, word)) return " [hint: resname " + word + "]";
-    if (hasAtom(structure, word)) return " [hint: name " + word + "]";
-    return word.size() < shortest ? "" : didYouMean(word, selectionWords());
+    return SelectionParser(text, structure).parse();
 }
 
 } // namespace molsurf

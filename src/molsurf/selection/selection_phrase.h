@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// The grammar of selections.
+/// A phrase of gemmi's in a selection: /model/chains/residues/atoms;properties.
 
 #include "molsurf/structure/structure.h"
 
@@ -31,7 +31,7 @@ struct SequenceBound {
     int compare(const Residue& residue) const;
 };
 
-/// One alternative of a selection.
+/// A phrase.
 struct SelectionPattern {
     /// "b<20": a comparison of occupancy ('q') or B factor ('b').
     struct Inequality {
@@ -49,7 +49,7 @@ struct SelectionPattern {
     std::vector<Inequality> inequalities;
 };
 
-/// Parses one alternative:
+/// Reads a phrase:
 ///
 ///     [/model/][chains][/residues[/atoms]][;property]...
 ///
@@ -67,6 +67,6 @@ struct SelectionPattern {
 /// Parts at the beginning may be left out: what begins with a digit, a sign or ( is residues; what
 /// has [ or : before any / is atoms; anything else is chains.
 /// @throws Error(ErrorKind::Usage) that says what was expected where
-SelectionPattern parseSelection(const std::string& text);
+SelectionPattern readPhrase(const std::string& text);
 
 } // namespace molsurf

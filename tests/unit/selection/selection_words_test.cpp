@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/parse_words.h"
+#include "molsurf/selection/parse_selection.h"
 
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/structure/load_text.h"
@@ -177,6 +177,77 @@ TEST(Words, NameThePlaceAndTheNearestWord)
     EXPECT_HAS(refusalOf("LIG", ErrorKind::Input), "matches no atom [hint: resname LIG]");
 }
 
+// Wherever they stand: in a list, behind an operand, as an operand, in quotes they are names.
+TEST(Words, RefuseThoseOfOtherProgramsAndSayWhatToWrite)
+{
+    EXPECT_EQ(
+        refusalOf("name CA extend 1"),
+        "selection \"name CA extend 1\": expected the name of an atom, an operator or the end, "
+        "got \"extend\" at 9 [hint: not known here; write within 2 of S for what is bonded, "
+        "byres S for its residues]");
+    for (const char* phrase :
+         {"resname LYS gap 1", "chain A near 5", "resn ZN byring", "name CA like",
+          "name CA in chain A", "resid 5 extend 1", "water near 5", "neighbor resn ZN", "ss h",
+          "name CA+gap", "(chain A bonded resn ZN)", "not first", "resSeq 10", "resindex < 5",
+          "mass > 10", "sqr(x) < 5", "Extend 1", "protein and ss h"})
+        EXPECT_HAS(refusalOf(phrase), "[hint: not known here; write ") << phrase;
+    Structure s = codes();
+    s.residues[std::size_t(s.atoms[0].residue)].name = "GAP";
+    EXPECT_EQ(countOf(s, "resname GAP ZN"), 6u) << "a name of the file";
+    EXPECT_HAS(errorOf(ErrorKind::Usage, [&] { matchAtoms(s, "resname ZN gap 1"); }), "beyond 5");
+    EXPECT_EQ(countOf(s, "resname ZN \"gap\""), 1u);
+    s.chains = {"gap", "near"};
+    EXPECT_EQ(countOf(s, "gap and name CA"), countOf(codes(), "A and name CA"));
+}
+
+TEST(Words, SayWhichNamesOfAListNoAtomHas)
+{
+    const auto notes = [](const std::string& phrase) {
+        std::string out;
+        for (const std::string& line : matchAtoms(codes(), phrase).warnings) out += line + "|";
+        return out;
+    };
+    EXPECT_EQ(notes("resname ZN HIZ"), "selection resname \"HIZ\" matches no atom of the file|");
+    EXPECT_EQ(notes("chain A and not name CA XX"),
+              "selection name \"XX\" matches no atom of the file|");
+    EXPECT_EQ(
+        notes("protein and not name \"C*\""),
+        "selection name \"C*\" matches no atom of the file [hint: in quotes * and ? are letters: "
+        "name C*]|");
+    EXPECT_EQ(
+        notes("resname ZN ala"),
+        "selection resname \"ala\" matches no atom of the file [hint: names have the case of the "
+        "file: resname ALA]|");
+    EXPECT_EQ(notes("name CA or within 2 of name C* Q*"),
+              "selection name \"Q*\" matches no atom of the file|");
+    EXPECT_EQ(notes("resname ZN and alt \"\""), "");
+    EXPECT_HAS(refusalOf("name \"C?\"", ErrorKind::Input), "name C?]");
+}
+
+TEST(Words, FindSegments)
+{
+    Structure s = codes();
+    EXPECT_EQ(countOf(s, "segid A"), countOf(s, "chain A")) << "without segments these are chains";
+    s.segments = {"PROA", "SOLV"};
+    for (Residue& residue : s.residues) residue.segment = residue.name == "ZN" ? 1 : 0;
+    s.residues[0].segment = -1;
+    EXPECT_EQ(countOf(s, "segid SOLV"), 1u);
+    EXPECT_EQ(countOf(s, "segname PROA SOLV or segi " + s.chains[std::size_t(s.residues[0].chain)]),
+              s.atoms.size());
+    EXPECT_EQ(countOf(s, "chain PROA"), 0u);
+}
+
+TEST(Words, ReadOnePhraseOfGemmisAmongThem)
+{
+    EXPECT_EQ(countOf(codes(), "A;b < 20"), countOf(codes(), "A;b<20"));
+    EXPECT_EQ(countOf(codes(), "A;b < 20 and name CA"),
+              countOf(codes(), "chain A and b < 20 and name CA"));
+    EXPECT_EQ(countOf(codes(), "!A//CA"), countOf(codes(), "chain B and name CA")) << "not A alone";
+    EXPECT_EQ(countOf(codes(), "!water"), countOf(codes(), "not water"));
+    EXPECT_EQ(countOf(codes(), "!(A//CA or B)"), countOf(codes(), "chain A and not name CA"));
+    EXPECT_HAS(refusalOf("name CA and A/x"), "expected a / or ; behind the residues, got \"x\"");
+}
+
 TEST(Words, SayWhereBracketsDecide)
 {
     const AtomMatch match = matchAtoms(codes(), "within 5 of resn ZN or water");
@@ -211,7 +282,7 @@ TEST(Words, LookForNeighboursInOneModel)
     const auto at = [&](std::size_t i) { return one.atoms.begin() + std::ptrdiff_t(i); };
     EXPECT_EQ(std::count(at(first.begin), at(first.end), 1), 0);
     EXPECT_GT(std::count(at(second.begin), at(second.end), 1), 20);
-    EXPECT_EQ(one.models, (std::vector<int>{2, 0}));
+    EXPECT_EQ(one.models, (std::vector<int>{2}));
     const AtomMatch other = matchAtoms(s, "within 5 of /1/A/1");
     const auto later = other.atoms.begin() + std::ptrdiff_t(second.begin);
     EXPECT_EQ(std::count(later, later + std::ptrdiff_t(second.end - second.begin), 1), 0);

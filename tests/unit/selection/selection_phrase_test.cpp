@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/selection_syntax.h"
+#include "molsurf/selection/selection_phrase.h"
 
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/structure/read_structure.h"
@@ -131,7 +131,7 @@ TEST(Selection, WordsAreThoseOfTheTableOfResidues)
 TEST(Selection, SaysWhatItExpected)
 {
     const auto message = [](const char* text) {
-        return errorOf(ErrorKind::Usage, [&] { parseSelection(text); });
+        return errorOf(ErrorKind::Usage, [&] { readPhrase(text); });
     };
     EXPECT_HAS(message("A/x"),
                "selection \"A/x\": expected a / or ; behind the residues, got \"x\"");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/selection_syntax.h"
+#include "molsurf/selection/selection_phrase.h"
 
 #include "molsurf/error.h"
 #include "molsurf/structure/element.h"
@@ -38,13 +38,13 @@ std::uint32_t kindsOf(string_view word)
     return 0;
 }
 
-/// Recursive descent: a function for each part of the grammar at parseSelection().
-class Parser
+/// Recursive descent: a function for each part of the grammar at readPhrase().
+class PhraseReader
 {
 public:
-    explicit Parser(const std::string& text) : text_(text) {}
+    explicit PhraseReader(const std::string& text) : text_(text) {}
 
-    SelectionPattern parse()
+    SelectionPattern read()
     {
         enum Part { Model, Chains, Residues, Atoms };
         const Part first = peek() == '/'                      ? Model
@@ -301,10 +301,9 @@ int SequenceBound::compare(const Residue& residue) const
     return insertionCode < residue.insertionCode ? -1 : 1;
 }
 
-SelectionPattern parseSelection(const std::string& text)
+SelectionPattern readPhrase(const std::string& text)
 {
-    if (text == "*") return SelectionPattern();
-    return Parser(text).parse();
+    return PhraseReader(text).read();
 }
 
 } // namespace molsurf
