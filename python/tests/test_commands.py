@@ -177,7 +177,7 @@ def test_wrong_panels_and_notes(tmp_path):
 def test_wrong_options_of_pictures(tmp_path):
     made = ms.read(DATA / "1crn.pdb", voxel=1).surface()
     for given, said in (({"view": (0, 0, 0)}, "`view`: expected a direction X,Y,Z that is not 0"),
-                        ({"view": "A/10"}, "`view`: expected auto, a direction X,Y,Z or a FILE.view"),
+                        ({"view": "A/10"}, "`view`: expected auto, a direction X,Y,Z, an axis as z or a FILE.view"),
                         ({"opacity": 2}, "`opacity`: expected a number from 0.01 to 1"),
                         ({"style": "oil"}, "`style`: expected"), ({"background": "clear"}, "`background`: expected")):
         with pytest.raises(ms.OptionError, match=said):

@@ -15,10 +15,10 @@ from vdb_molsurf import _options
 # Options of files, terminals and machines, which a module has no use for.
 OF_A_PROGRAM = {"output", "format", "force", "memory", "max-hours", "dry-run", "require", "skip-existing", "threads", "quiet", "verbose",
                 "no-progress", "config", "help", "help-all", "version", "list-radii"}
-# Options that Python has in another form: groups=, table(), contacts, to_vdb(scene=), picture(width, turn=), and for trajectories
+# Options that Python has in another form: groups=, table(), contacts, Molecule.superpose(), to_vdb(scene=), picture(width, turn=), and for trajectories
 # the molecules of MDAnalysis and MDTraj, one surface a frame. Its meshes have all copies: their borders are welded, and none is
 # placed by a level of detail.
-OTHERWISE = {"groups", "areas", "contacts", "for", "size", "turntable", "frames", "first-frame", "trajectory", "update-selections",
+OTHERWISE = {"groups", "areas", "contacts", "for", "size", "turntable", "frames", "first-frame", "trajectory", "update-selections", "superpose",
              "fps", "weld", "lod"}
 COMMAND_LINE = OF_A_PROGRAM | OTHERWISE
 # Keywords of what files of atoms have, which the command line takes along by itself.

@@ -179,7 +179,7 @@ CASES = {
     "selection/selection_tree.cpp": [
         ("in quotes * and ? are letters: name C*", f"vdb_molsurf 1crn.pdb --select 'protein and not name \"C*\"' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'protein and not name C*' {FAST} -o b.ply"),
-        ("names have the case of the file: resname THR", f"vdb_molsurf 1crn.pdb --select 'resname thr ALA' {FAST} -o a.ply",
+        ("did you mean resname THR? Names have the case of the file", f"vdb_molsurf 1crn.pdb --select 'resname thr ALA' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'resname THR ALA' {FAST} -o b.ply")],
     "selection/parse_selection.cpp": [
         ("not known here; write within 2 of S", f"vdb_molsurf 1crn.pdb --select 'name SG extend 1' {FAST} -o a.ply",

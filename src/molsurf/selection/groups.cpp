@@ -108,9 +108,9 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         const std::size_t length =
             std::size_t(columns[end - 1].data() + columns[end - 1].size() - first);
         if (length <= longest) rule.select = std::string(first, length);
-        const auto isWord = [](std::string_view text) {
-            return text.find_first_of("()|&<>=") != std::string_view::npos ||
-                   (text.size() > 1 && selectionWord(text));
+        const auto isWord = [](std::string_view word) {
+            return word.find_first_of("()|&<>=") != std::string_view::npos ||
+                   (word.size() > 1 && selectionWord(word));
         };
         const auto last = columns.begin() + std::ptrdiff_t(end);
         if (end > 2 && std::none_of(columns.begin() + 1, last, isWord)) { // a wrong colour

@@ -266,7 +266,8 @@ std::vector<std::string> unknownNames(const SelectionTree& tree, const Structure
         if (glob.quoted && glob.text.find_first_of("*?") != std::string::npos)
             hint = " [hint: in quotes * and ? are letters: " + word + " " + glob.text + "]";
         else if (has({upper, glob.pattern}))
-            hint = " [hint: names have the case of the file: " + word + " " + upper + "]";
+            hint =
+                " [hint: did you mean " + word + " " + upper + "? Names have the case of the file]";
         out.push_back(word + " " + inQuotes(glob.text) + " matches no atom of the file" + hint);
     }
     return out;

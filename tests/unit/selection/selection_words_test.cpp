@@ -216,8 +216,8 @@ TEST(Words, SayWhichNamesOfAListNoAtomHas)
         "name C*]|");
     EXPECT_EQ(
         notes("resname ZN ala"),
-        "selection resname \"ala\" matches no atom of the file [hint: names have the case of the "
-        "file: resname ALA]|");
+        "selection resname \"ala\" matches no atom of the file [hint: did you mean resname ALA? "
+        "Names have the case of the file]|");
     EXPECT_EQ(notes("name CA or within 2 of name C* Q*"),
               "selection name \"Q*\" matches no atom of the file|");
     EXPECT_EQ(notes("resname ZN and alt \"\""), "");
