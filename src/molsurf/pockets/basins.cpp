@@ -188,10 +188,12 @@ struct RoomParts {
     std::vector<Meeting> meetings; ///< the widest first
 
     /// @param[in] basins  their peaks are the starts of the graph
-    RoomParts(const VoidGraph& graph, const Rooms& rooms, const Basins& basins,
-              const BelowCut& below)
+    RoomParts(const VoidField& space, const VoidGraph& graph, const Rooms& rooms,
+              const Basins& basins, const BelowCut& below)
     {
-        const auto isBelow = [&](const openvdb::Vec3d& x, double d) { return below(x, d) > 0.0; };
+        const auto isBelow = [&](const openvdb::Vec3d& x, double d) {
+            return basinAbout(space, basins, x) >= 0 && below(x, d) > 0.0;
+        };
         std::vector<std::pair<float, std::int32_t>> tops; // minus the peak; a room or -1 - a basin
         std::vector<std::int32_t> partOf(rooms.nodes.size(), -1);
         std::vector<char> isIn(rooms.nodes.size(), 0);
@@ -288,13 +290,33 @@ Basins splitAtNecks(const VoidField& space, double share, double leastVoxels)
     return out;
 }
 
+std::int32_t basinAbout(const VoidField& space, const Basins& basins, const openvdb::Vec3d& x)
+{
+    const openvdb::Vec3d at = x / space.voxelSize;
+    const openvdb::Coord low = openvdb::Coord::floor(at);
+    double least = std::numeric_limits<double>::infinity();
+    std::int32_t best = -1;
+    for (int k = 0; k < 8; ++k) {
+        const openvdb::Coord voxel = low.offsetBy(k >> 2, k >> 1 & 1, k & 1);
+        const std::int32_t leaf = space.table.find(voxel);
+        if (leaf < 0) continue;
+        const std::int32_t basin = basins.of.leaf(
+            std::size_t(leaf))[(voxel[0] & 7) << 6 | (voxel[1] & 7) << 3 | (voxel[2] & 7)];
+        const double square = (voxel.asVec3d() - at).lengthSqr();
+        if (basin < 0 || square >= least) continue;
+        least = square;
+        best = basin;
+    }
+    return best;
+}
+
 RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const VoidField& space,
                         const SplitRule& rule, const BelowCut& below, const Progress& progress)
 {
     RoomBasins out{splitAtNecks(space, 1.0, 0.0), {}}; // every maximum of the voxels
     out.graph = voidGraph(balls, probe, peakPlaces(space, out.basins), progress);
     const Rooms rooms = roomsOf(out.graph);
-    const RoomParts found(out.graph, rooms, out.basins, below);
+    const RoomParts found(space, out.graph, rooms, out.basins, below);
     Parts parts(rule.share);
     for (const float peak : found.peaks) parts.add(peak);
     for (const RoomParts::Meeting& meeting : found.meetings) {

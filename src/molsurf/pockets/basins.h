@@ -69,6 +69,9 @@ struct Basins {
 /// @param[in] leastVoxels  a basin of fewer joins the neighbour with the widest neck
 Basins splitAtNecks(const VoidField& space, double share, double leastVoxels);
 
+/// The basin of the voxel nearest to a place among the 8 about it, or -1.
+std::int32_t basinAbout(const VoidField& space, const Basins& basins, const openvdb::Vec3d& x);
+
 /// Where a space is split, as by splitAtNecks().
 struct SplitRule {
     double share, leastVoxels;

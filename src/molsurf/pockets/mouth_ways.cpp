@@ -34,27 +34,6 @@ struct BasinPart {
     std::vector<Exit> exits;
 };
 
-/// The basin of the voxel nearest to a place among the 8 about it, or -1.
-std::int32_t basinAbout(const VoidField& space, const Basins& basins, const Vec3d& x)
-{
-    const Vec3d at = x / space.voxelSize;
-    const openvdb::Coord low = openvdb::Coord::floor(at);
-    double least = std::numeric_limits<double>::infinity();
-    std::int32_t best = -1;
-    for (int k = 0; k < 8; ++k) {
-        const openvdb::Coord voxel = low.offsetBy(k >> 2, k >> 1 & 1, k & 1);
-        const std::int32_t leaf = space.table.find(voxel);
-        if (leaf < 0) continue;
-        const std::int32_t basin = basins.of.leaf(
-            std::size_t(leaf))[(voxel[0] & 7) << 6 | (voxel[1] & 7) << 3 | (voxel[2] & 7)];
-        const double square = (voxel.asVec3d() - at).lengthSqr();
-        if (basin < 0 || square >= least) continue;
-        least = square;
-        best = basin;
-    }
-    return best;
-}
-
 /// Where a way along an edge comes to the cut, by halving; `least` and `narrowest` of what is
 /// before that.
 Exit exitAlong(const VoidGraph& graph, const VoidGraph::Edge& edge, std::int32_t node,
