@@ -3,8 +3,8 @@
 # Left out are pages about the sources themselves, links to those, comments, and what stands between the comments
 # "sources" and "end of sources". scripts/check_docs.py --installed holds what is left against what is there.
 cmake_minimum_required(VERSION 3.25)
-set(about_sources architecture install packages paper reliability)
-set(other CONTRIBUTING SECURITY CHANGELOG adr/[a-zA-Z0-9-]+ ${about_sources})
+set(about_sources install)
+set(other CONTRIBUTING SECURITY CHANGELOG adr/[a-zA-Z0-9-]+ development/[a-zA-Z]+ ${about_sources})
 list(JOIN other "|" other)
 file(REMOVE_RECURSE ${TO})
 file(GLOB guides RELATIVE ${SOURCE} ${SOURCE}/docs/*.md)

@@ -1,5 +1,5 @@
 # Installs the libraries that the programs need beside them, but for those of the compiler and the C library, with what
-# Debian's packages say of their licences: the tarball (docs/packages.md) runs where none of them is.
+# Debian's packages say of their licences: the tarball (docs/development/packages.md) runs where none of them is.
 set(programs $<TARGET_FILE:vdb_molsurf> $<TARGET_FILE:vdb_molsurf_msms> $<TARGET_FILE:vdb_molsurf_nanoshaper>)
 install(CODE "set(programs ${programs})
   set(libraries_folder ${CMAKE_INSTALL_LIBDIR})

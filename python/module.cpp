@@ -113,6 +113,7 @@ nb::list describeSettings()
         one["name"] = row.name;
         one["type"] = types[std::size_t(row.type)];
         one["text"] = withKeywords(row.text);
+        one["value"] = row.value ? row.value : ""; // what the text calls it: "L"
         one["preset"] = row.preset;
         one["words"] = row.words;
         one["low"] = row.low;
@@ -574,6 +575,7 @@ void addSurface(nb::module_& m)
             all.push_back({cavity.area, cavity.volume});
         return owned<double>(std::move(all));
     });
+    type.def_prop_ro("warnings", [](const MadeSurface& s) { return s.result.report.warnings; });
     type.def("report_text",
              [](const MadeSurface& s) { return bytesOf(reportText(s.result.report)); })
         .def("contacts",

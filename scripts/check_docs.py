@@ -235,6 +235,16 @@ def site_faults(root):
                 yield page, found.start(), f"scripts/docs.sh does not copy {found[1]} into the site"
 
 
+def word_faults(root):
+    """Guides, without the pages that programs make, have at most so many words."""
+    most = 40000
+    count = sum(len(page.read_text().split()) for page in (root / "docs").glob("*.md")
+                if page.name not in ("options.md", "python_api.md"))
+    print(f"docs: {count} words in the guides, at most {most}")
+    if count > most:
+        yield f"docs: the guides have {count} words, expected at most {most}"
+
+
 def check(root, program):
     """Lines that tell of the faults."""
     tree, lines = Tree(root), []
@@ -307,6 +317,7 @@ def main():
         elif not (ROOT / name).exists() or (ROOT / name).read_text() != text:
             lines.append(f"{name}: not what the program prints; run scripts/check_docs.py --renew")
     lines += check(ROOT, program)
+    lines += word_faults(ROOT)
     print(*lines, sep="\n", end="\n" if lines else "")
     print(f"docs: {len(program.options)} options, {len(lines)} faults")
     return 1 if lines else 0

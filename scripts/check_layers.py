@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
-"""Holds the #include lines against the table of docs/architecture.md.
+"""Holds the #include lines against the table of docs/development/architecture.md.
 
 Prints one line for each that breaks it, and exits with 1 if there is one.
 """

@@ -12,7 +12,7 @@ command -v mkdocs > /dev/null || scripts/install_deps.sh mkdocs mkdocs-material
 rm -rf build-docs
 mkdir -p build-docs/pages
 # What pages link to, beside each other; scripts/check_docs.py holds the links against this list.
-copied=(README.md CONTRIBUTING.md SECURITY.md CHANGELOG.md LICENSE docs scripts/workflow/config.yaml
+copied=(README.md CONTRIBUTING.md SECURITY.md SUPPORT.md CODE_OF_CONDUCT.md CHANGELOG.md LICENSE docs scripts/workflow/config.yaml
   scripts/blender/make_addon.sh scripts/blender/open_in_blender.py scripts/blender/place_copies.py
   scripts/houdini/load_in_houdini.py scripts/pymol/molsurf.py)
 cp -r --parents "${copied[@]}" build-docs/pages/

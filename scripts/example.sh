@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-echo "== 1 of 3: packages of Debian that building needs; some 180 MB to load, a minute or two if none is there"
+echo "== 1 of 3: packages of Debian that building needs; a minute or two if none is there, apt prints their size"
 scripts/install_deps.sh
 echo "== 2 of 3: the program, without its tests; 5 minutes on 2 cores when it is built for the first time"
 # A folder that is configured already, with tests perhaps, stays as it is.

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MPL-2.0
-"""Draws the pictures of README.md and docs/paper.md.
+"""Draws the pictures of README.md and docs/development/paper.md.
 
     scripts/make_pictures.py build-release/tools/vdb_molsurf docs/pictures [NAME ...]
 

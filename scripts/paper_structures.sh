@@ -1,5 +1,5 @@
 #!/bin/bash
-# Writes the structures of docs/paper.md that have hydrogens, as PQR files with CHARMM's radii:
+# Writes the structures of docs/development/paper.md that have hydrogens, as PQR files with CHARMM's radii:
 #     scripts/paper_structures.sh FOLDER
 # Needs the Debian packages gemmi, pdb2pqr and apbs-data (scripts/install_deps.sh installs what it is
 # given).

@@ -11,7 +11,7 @@ if [[ ${1:-} == --all ]]; then
   sets+=(--optional)
   shift
 fi
-echo "== 1 of 3: packages of Debian that building and testing need; a minute or two if none is there"
+echo "== 1 of 3: packages of Debian that building and testing need; a minute or two if none is there, apt prints their size"
 scripts/install_deps.sh "${sets[@]}"
 echo "== 2 of 3: the library, the programs and the tests; 6 minutes on 2 cores when nothing is built, half of it for the tests"
 cmake --preset release -DMOLSURF_BUILD_TESTS=ON "$@"

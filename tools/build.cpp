@@ -27,6 +27,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -73,7 +74,9 @@ void completeReport(const Call& call, const BallSet& balls, const Report& read, 
 
 bool seesBehind(const Call& call)
 {
-    return call.picture.opacity < 1.0 && (call.picture.allWalls || call.showsPockets);
+    const bool throughBodies = call.showsPockets() && !call.shows.empty();
+    return throughBodies ||
+           (call.picture.opacity < 1.0 && (call.picture.allWalls || call.showsPockets()));
 }
 
 RunLimits limitsOf(const Call& call)
@@ -92,9 +95,11 @@ RunLimits limitsOf(const Call& call)
 RunLimits limitsOf(const Call& call, const BallSet& atoms)
 {
     RunLimits limits = limitsOf(call);
-    // measured: build --show pockets of 1CRN, 4AT1, with --opacity 0.4 and without: 1.1 to 1.5
+    // measured: build --show pockets=all of 1CRN, 4AT1, with --opacity 0.4 and without: 1.1 to 1.5;
+    // few bodies take nothing beside the search for them
     constexpr double shareOfBodies = 0.7; // of what the search for them takes
-    if (call.showsPockets && call.writes(Pixels))
+    constexpr std::size_t few = 20;
+    if (call.shownPockets > few && call.writes(Pixels))
         limits.besides.bytes +=
             std::size_t(shareOfBodies * double(costOfPockets(atoms, call.options).bytes));
     if (call.writes(Volume)) limits.besides.seconds += costOfMap(atoms, call.options).seconds;
@@ -181,6 +186,8 @@ void centerMesh(Call& call, MolecularSurface& result)
     if (call.picture.model) {
         auto model = std::make_shared<AtomModel>(*call.picture.model);
         for (MeshInstance& thing : model->instances) thing.translation -= center;
+        for (openvdb::Vec3f& x : model->bodies.positions)
+            x = openvdb::Vec3f(openvdb::Vec3d(x) - center);
         call.picture.model = model;
     }
     call.scene.center = center;
@@ -204,6 +211,19 @@ std::vector<StageShare> stagesOf(const SurfaceOptions& options, double drawing)
     return stages;
 }
 
+/// Refuses interfaces of one group, where the report of one structure would have nothing else.
+void checkGroups(const Call& call, const BallSet& balls)
+{
+    const bool implied = !call.has("groups") && !call.has("group-by") && !call.colorGroups;
+    if (!call.has("interfaces") || !implied || call.verb != Build || !call.frames.empty() ||
+        balls.labels->groups.size() > 1)
+        return;
+    throw Error(ErrorKind::Input,
+                "--interfaces: expected at least two groups, got " +
+                    counted(balls.labels->groups.size(), "group", "groups") +
+                    " by --group-by chain [hint: --groups FILE names parts of a chain]");
+}
+
 /// Whether the estimate is that of the run: it is of one surface, and of the steps that it needs.
 bool isEstimated(const SurfaceOptions& options)
 {
@@ -214,13 +234,27 @@ bool isEstimated(const SurfaceOptions& options)
     return !several && !asked;
 }
 
+/// Whether a number was asked for that depends on what the field closes: pieces, handles, cavities,
+/// pockets, areas of atoms. The report has the gaps in any case.
+bool dependsOnGaps(const Call& call)
+{
+    const bool ofPieces =
+        std::any_of(call.required.begin(), call.required.end(), [](const Requirement& one) {
+            return one.word == "components" || one.word == "cavities" || one.word == "genus";
+        });
+    const SurfaceOptions& options = call.options;
+    const bool ofAreas =
+        options.ballAreas && options.areasOf.value_or(options.kind) == options.kind;
+    return ofPieces || ofAreas || options.pockets || options.fillCavities || call.verbose;
+}
+
 /// A line on what the field closes, with what opens the widest of it, and all; empty if that is
 /// narrow.
 std::string closedByField(const Report& report, const SurfaceOptions& options)
 {
     constexpr double wide = 0.25; // [Å], the room of the tunnel of gramicidin (1GRM)
-    const bool asked = report.evolution && report.evolution->gaps;
-    if (!asked || report.evolution->gaps->widestClosed < wide) return {};
+    if (!report.evolution || !report.evolution->gaps || report.evolution->gaps->widestClosed < wide)
+        return {};
     const EvolutionReport::Gaps& gaps = *report.evolution->gaps;
     const std::string line =
         formatted("gaps: the field closes %s that a probe fits into, with up to %.2f Å of room",
@@ -245,6 +279,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
                  const Companions& companions)
 {
     stopIfAsked();
+    checkGroups(call, balls);
     const RunLimits limits = limitsOf(call, balls);
     constexpr double any = std::numeric_limits<double>::infinity();
     if (!call.options.grid) {
@@ -271,6 +306,9 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
         balls.names->residues.size() == 1)
         result.report.warnings.push_back("contacts: all atoms are of one residue [hint: --contacts "
                                          "atom]");
+    if (call.options.interfaces && balls.labels->groups.size() < 2)
+        result.report.warnings.push_back("interfaces: all atoms are of one group [hint: --groups "
+                                         "FILE names parts of them]");
     const auto& pockets = result.report.pockets;
     if (pockets && pockets->list.empty() && !balls.pocketAt.empty() && call.frames.empty())
         throw Error(ErrorKind::Input,
@@ -292,11 +330,14 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
 
     const auto bodies = std::make_shared<Mesh>(takeBodies(call, terminal, result));
     if (call.writes(Numbered)) numberOutputs(result.report.pockets->list.size(), call);
-    if (call.showsPockets) showBodies(*bodies, call.picture);
+    const auto drawn = std::make_shared<Mesh>();
+    if (call.showsPockets()) *drawn = drawnBodies(call, balls, *bodies, result.mesh, terminal);
+    showBodies(*drawn, call.picture);
     if (call.center) centerMesh(call, result);
     if (!call.panels.empty()) makePanels(call, balls, result.mesh, terminal);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
     shown.bodies = bodies;
+    shown.drawnBodies = drawn;
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
     if (!call.writes(Grids | Stage | Volume | Solver)) dropGrids(result);
     writeAll(call, balls, result, shown, terminal, start, companions);
@@ -342,6 +383,22 @@ std::string poreLine(const Report::Pore& pore)
     return line;
 }
 
+/// Names pages that are slow to load or to send, with voxels that make them lighter: triangles, and
+/// so bytes, go by the inverse square of the voxel.
+void sayLargePages(const Call& call)
+{
+    constexpr double large = 12e6, wanted = 11e6; // [byte]
+    for (const Output& output : call.outputs) {
+        std::error_code none;
+        const auto bytes = std::filesystem::file_size(output.path, none);
+        if (output.format != findFormat("html") || none || double(bytes) <= large) continue;
+        const double voxel =
+            std::ceil(10.0 * call.options.voxel * std::sqrt(double(bytes) / wanted)) / 10.0;
+        say(formatted("%s: the page has %.0f MB [hint: --voxel %g makes it lighter]",
+                      output.path.c_str(), double(bytes) / 1e6, voxel));
+    }
+}
+
 } // namespace
 
 Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
@@ -354,7 +411,8 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     if (report.pockets) say(pocketsLine(*report.pockets));
     if (report.pore) say(poreLine(*report.pore));
     for (const std::string& line : leftOutOf(call)) say(line);
-    const std::string closed = closedByField(report, call.options);
+    sayLargePages(call);
+    const std::string closed = dependsOnGaps(call) ? closedByField(report, call.options) : "";
     if (!closed.empty()) say(closed);
     return report;
 }

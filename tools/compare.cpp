@@ -35,6 +35,8 @@ struct Read {
     PlannedBrick cost;
     Operand operand;
     bool converged = true;
+    std::shared_ptr<const Anchors> anchors{};     ///< of a structure, for --superpose
+    std::optional<Superposition> superposition{}; ///< of the second one on the first
 };
 
 /// Runs f; an Input error of it names the file.
@@ -95,8 +97,12 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         stopIfAsked();
         read.operand = operandOf(std::move(mesh), terminal);
     } else {
-        const auto [selection, description] = readBalls(path, call, terminal);
+        Call own = call;
+        if (first) own.anchors = first->anchors;
+        const auto [selection, description, anchors, motion] = readBalls(path, own, terminal);
         said.push_back(description);
+        read.anchors = anchors;
+        read.superposition = motion;
         SurfaceOptions options = call.options;
         options.fields = {"spline"};
         if (!call.dryRun) checkCost(selection, options, limitsOf(call), terminal);
@@ -109,6 +115,24 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
     }
     for (std::string& warning : read.operand.warnings) warning = path + ": " + warning;
     return read;
+}
+
+/// A warning where the two lie beside each other, so that distances are those of their places.
+std::string apartText(const Read& a, const Read& b)
+{
+    const auto boxOf = [](const Read& read) {
+        openvdb::BBoxd box;
+        for (const openvdb::Vec3f& x : read.operand.surface.mesh.positions)
+            box.expand(openvdb::Vec3d(x));
+        return box;
+    };
+    const openvdb::BBoxd one = boxOf(a), other = boxOf(b);
+    const double apart = (one.getCenter() - other.getCenter()).length();
+    const double size = std::max(one.extents().length(), other.extents().length());
+    if (!(apart > 0.5 * size)) return {};
+    const bool structures = a.operand.kind == "structure" && b.operand.kind == "structure";
+    return formatted("A and B lie %.1f Å apart, more than half of their size%s", apart,
+                     structures ? " [hint: --superpose auto lays B on A]" : "");
 }
 
 std::vector<std::string> warningsOf(const Call& call, const Read& a, const Read& b)
@@ -126,6 +150,8 @@ std::vector<std::string> warningsOf(const Call& call, const Read& a, const Read&
                       ": without effect, since neither A nor B is a structure");
     for (const Read* read : {&a, &b})
         all.insert(all.end(), read->operand.warnings.begin(), read->operand.warnings.end());
+    const std::string apart = apartText(a, b);
+    if (!apart.empty()) all.push_back(apart);
     return all;
 }
 
@@ -230,6 +256,11 @@ int compareFiles(const Call& call, Clock::time_point start, Terminal& terminal)
         return 0;
     }
     lap("surfaces");
+    if (!call.superpose.empty() && !b.superposition)
+        throw Error(ErrorKind::Input, "--superpose: expected two structures, got a " +
+                                          (a.anchors ? b : a).operand.kind + ", " +
+                                          (a.anchors ? b : a).path);
+    report.superposition = b.superposition;
     for (const std::string& warning : warningsOf(call, a, b))
         report.warnings.push_back(withOptionNames(warning));
     terminal.erase();

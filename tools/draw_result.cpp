@@ -6,12 +6,16 @@
 #include "outputs.h"
 #include "verbs.h"
 
+#include "molsurf/color/legend.h"
+#include "molsurf/color/palette.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/io/part_ranges.h"
 #include "molsurf/picture/atom_model.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/spline/curvature.h"
+#include "molsurf/surface/pockets.h"
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/surface_kind.h"
 
@@ -25,6 +29,47 @@ namespace molsurf::tool
 openvdb::Vec3d originOf(const Call& call)
 {
     return call.center ? call.scene.center : openvdb::Vec3d(0.0);
+}
+
+Mesh drawnBodies(const Call& call, const BallSet& atoms, const Mesh& bodies, const Mesh& surface,
+                 Terminal& terminal)
+{
+    const std::vector<PartRange> parts = partRanges(bodies, "");
+    const std::size_t count =
+        std::min(call.shownPockets, bodies.triangles.empty() ? 0 : parts.size());
+    if (count < parts.size() && count > 0 && !call.quiet && call.writes(Pixels | ColorChoices)) {
+        terminal.erase();
+        say(formatted("pictures show the %d largest of %d pockets [hint: --show pockets=all]",
+                      int(count), int(parts.size())));
+    }
+    std::vector<Color> used; // by the surface and the atoms beside it
+    const ColorBy by = call.options.color;
+    if (const auto legend = legendOf(by, atoms, surface, terminal); legend && by != ColorBy::Pocket)
+        for (const LegendEntry& entry : legend->entries) used.push_back(entry.color);
+    if (call.picture.model)
+        for (const auto* entries : {&call.picture.model->chains, &call.picture.model->elements})
+            for (const LegendEntry& entry : *entries) used.push_back(entry.color);
+    Mesh drawn;
+    for (std::size_t p = 0, number = 1; p < count; ++p, ++number) {
+        Color color = pocketColor(number);
+        for (std::size_t tried = 0; tried < mostDistinct; ++tried) {
+            if (std::count(used.begin(), used.end(), color) == 0) break;
+            color = pocketColor(++number);
+        }
+        const PartRange& part = parts[p];
+        const auto shift = std::uint32_t(drawn.positions.size() - part.firstVertex);
+        drawn.parts.push_back({part.name, drawn.triangles.size()});
+        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
+            drawn.positions.push_back(bodies.positions[v]);
+            drawn.normals.push_back(bodies.normals[v]);
+            drawn.colors.push_back(color);
+        }
+        for (std::size_t t = part.firstTriangle; t < part.triangleEnd; ++t) {
+            const auto& corners = bodies.triangles[t];
+            drawn.triangles.push_back({corners[0] + shift, corners[1] + shift, corners[2] + shift});
+        }
+    }
+    return drawn;
 }
 
 void showBodies(const Mesh& bodies, DrawOptions& picture)
@@ -88,7 +133,7 @@ PanelSurface readPanel(const Call& call, const Panel& what, const BallSet& first
     if (what.kind) return panel;
     panel.picture.model.reset();
     panel.picture.notes.clear();
-    auto [balls, description] =
+    auto [balls, description, anchors, motion] =
         readBalls(what.file, panelCall(call), terminal, &panel.picture, true);
     terminal.erase();
     if (!call.quiet) {

@@ -39,6 +39,12 @@ std::string firstName(const Call& call);
 /// The point that is 0 in meshes.
 openvdb::Vec3d originOf(const Call& call);
 
+/// The bodies of the largest pockets, as many as the call shows, in colours that neither the
+/// surface nor the atoms have. Says how many are left out.
+/// @param[in] bodies  of all pockets, the largest first
+Mesh drawnBodies(const Call& call, const BallSet& atoms, const Mesh& bodies, const Mesh& surface,
+                 Terminal& terminal);
+
 /// Shows bodies among the atoms of a picture.
 void showBodies(const Mesh& bodies, DrawOptions& picture);
 

@@ -42,7 +42,7 @@ constexpr std::array<ExitStatus, 6> exitStatuses = {
     {{doneStatus, "done"},
      {failedStatus, "failed"},
      {misusedStatus, "wrong usage"},
-     {laterStatus, "failed, and may go well later (memory, space, a disk's error)"},
+     {laterStatus, "failed; try again later (memory, space, a disk's error)"},
      {interruptedStatus, "interrupted"},
      {readerGoneStatus, "nobody reads its output any more"}}};
 

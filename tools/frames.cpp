@@ -218,6 +218,7 @@ public:
           moves_(hasField(call_.options.fields, "v")), tableName_(tableOf(call_)), share_(call_)
     {
         if (call_.updateSelections) source_.update();
+        if (!call_.superpose.empty()) source_.superpose(anchorRule());
         if (share_.isAsked() && call_.options.grid && !hasField(call_.options.fields, "pocket_id"))
             call_.options.fields.push_back("pocket_id");
         for (const ShowRule& rule : call_.shows) shown_.push_back(pictured(rule.select));
@@ -324,8 +325,12 @@ private:
         auto source = std::make_unique<FrameSource>(call_.input, call_.trajectory, call_.frames,
                                                     picturedAtoms(call_, select), 0.0, terminal_);
         if (call_.updateSelections) source->update();
+        if (!call_.superpose.empty()) source->superpose(anchorRule());
         return source;
     }
+
+    /// By what frames are laid on the first one, whatever of them a picture shows.
+    AnchorRule anchorRule() const { return {call_.superpose, call_.atoms.select}; }
 
     /// Adds the labels and rulers of frame i.
     void addNotesOf(std::size_t i, DrawOptions& picture) const
@@ -437,7 +442,8 @@ private:
         if (euler_ && *euler_ != row.euler)
             changes_ += (changes_.empty() ? "" : ", ") + std::to_string(row.frame);
         euler_ = row.euler;
-        if (!call_.quiet) say(describe(row, report));
+        const Superposition* motion = source_.superposed(i);
+        if (!call_.quiet) say(describe(row, report) + (motion ? "; " + describe(*motion) : ""));
     }
 
     Call call_;

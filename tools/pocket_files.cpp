@@ -23,7 +23,7 @@ constexpr std::array<const char*, 2> bodyFields = {"pocket_id", "pocket_room"};
 
 bool wantsBodies(const Call& call)
 {
-    return call.showsPockets || call.writes(Numbered);
+    return call.showsPockets() || call.writes(Numbered);
 }
 
 SurfaceOptions withBodies(const Call& call)

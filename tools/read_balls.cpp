@@ -49,13 +49,22 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
         throw Error(
             ErrorKind::Input,
             path + ": it is a mesh, expected atoms [hint: vdb_molsurf compare measures meshes]");
-    const Structure structure = readStructure(path, call.atoms.maxInput, terminal, call.memory);
+    Structure structure = readStructure(path, call.atoms.maxInput, terminal, call.memory);
     stopIfAsked();
+    std::shared_ptr<const Anchors> anchors;
+    std::optional<Superposition> motion;
+    if (!call.superpose.empty()) {
+        anchors = std::make_shared<Anchors>(
+            anchorsOf(structure, {call.superpose, call.atoms.select}, call.atoms.model));
+        if (call.anchors) motion = superpositionOf(*anchors, *call.anchors);
+        if (motion) moveBy(*motion, structure);
+    }
     SelectOptions options = call.atoms;
     options.memory = call.memory;
     BallSet balls = selectBalls(structure, options, probeOf(call.options), terminal);
     std::string description = describeSelection(structure, balls);
-    if (!picture) return {std::move(balls), std::move(description)};
+    if (motion) description += "; " + describe(*motion);
+    if (!picture) return {std::move(balls), std::move(description), anchors, motion};
     const auto chosen = [&](const std::string& select) {
         return selectBalls(structure, picturedAtoms(call, select), 0.0, terminal);
     };
@@ -70,13 +79,15 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
         if (!partly || !isOfPlaces(note))
             isThere(partly, [&] { addNotes({note}, chosen, *picture); });
     if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);
-    return {std::move(balls), std::move(description)};
+    return {std::move(balls), std::move(description), anchors, motion};
 }
 
 BallSet readBalls(Call& call, Terminal& terminal, Report& report)
 {
     const Clock::time_point start = Clock::now();
-    auto [balls, description] = readBalls(call.input, call, terminal, &call.picture);
+    auto [balls, description, anchors, motion] =
+        readBalls(call.input, call, terminal, &call.picture);
+    call.anchors = anchors;
     malloc_trim(0); // what the parser has left is in pieces too small for the fields
     report.warnings = call.warnings;
     report.warnings.insert(report.warnings.end(), balls.warnings.begin(), balls.warnings.end());

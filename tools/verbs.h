@@ -10,10 +10,13 @@
 #include "terminal.h"
 
 #include "molsurf/report.h"
+#include "molsurf/selection/superpose.h"
 #include "molsurf/surface.h"
 
 #include <chrono>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,9 +54,12 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
 /// The balls of a structure file: read_balls.cpp.
 struct DescribedBalls {
     BallSet balls;
-    std::string description; ///< one line
+    std::string description;                      ///< one line
+    std::shared_ptr<const Anchors> anchors{};     ///< of a call with `superpose`
+    std::optional<Superposition> superposition{}; ///< how it lies on the anchors of the call
 };
 
+/// Where the call has anchors, the structure is laid on them.
 /// @param[in,out] picture  gets the atoms that it shows and looks at; null: there is none
 /// @param[in]     partly   what the structure lacks of these atoms is left out
 DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal,

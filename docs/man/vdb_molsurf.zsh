@@ -8,6 +8,7 @@ case $words[2] in
 esac
 case "$verb:$words[CURRENT-1]" in
     "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'pockets.vdb' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--superpose") compadd -- 'auto'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
     "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
@@ -51,6 +52,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "compare:--format") compadd -- 'vdb' 'ply' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
+    "compare:--superpose") compadd -- 'auto'; return ;;
     "compare:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "compare:--match") compadd -- 'none' 'ses'; return ;;
     "compare:--coarse") compadd -- 'atom' 'residue'; return ;;
@@ -62,8 +64,8 @@ case "$verb:$words[CURRENT-1]" in
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
-    "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
+    "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "convert:--view") compadd -- 'auto'; return ;;
     "convert:--background") compadd -- 'transparent'; return ;;
     "convert:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -107,6 +109,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--waters:keep waters'
       '--radii:van der Waals radii\: a name of --list-radii, or a file'
       '--probe:probe radius [Å]'
+      '--superpose:lay B on A, structures of --panel on INPUT or frames on the'
       '--max-input:bytes that INPUT may have, unpacked, such as 10G'
       '--frames:a surface for every S-th frame from A to B\: models of'
       '--trajectory:.dcd or .xtc with the frames, its atoms those of INPUT'
@@ -141,6 +144,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
       '--outward:potentials are taken A outside of the surface [Å]'
+      '--plain-color:of a surface without --color'
       '--crisp:mesh files\: triangles are cut where colours meet'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
@@ -160,12 +164,11 @@ if [[ $words[CURRENT] == -* ]]; then
       '--pdie:relative permittivity of the molecule'
       '--sdie:relative permittivity of the solvent'
       '--ion-conc:concentration of a 1\:1 salt [mol/L]'
-      '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
-      '--up:what is upright, such as 0,0,1 of a membrane'\''s normal;'
+      '--view:a direction toward the eye, X,Y,Z or an axis as z or -z;'
+      '--up:what is upright, such as z, the normal of a membrane;'
       '--turn:turned by so many degrees about the upright'
       '--size:width in pixels; the height follows the shape'
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'
-      '--plain-color:of a surface without --color'
       '--style:soft; glossy\: with highlights; outline\: as drawn with a'
       '--show:atoms beside the surface, whole and opaque, such as'
       '--label:a text at the middle of atoms, such as "A/57=active site";'
@@ -188,7 +191,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--memory:memory at most, such as 4G\: in bricks, one by one, if'
       '--max-hours:refuse what is estimated to take more hours'
-      '--dry-run:say what it takes, and stop'
+      '--dry-run:print the estimated time and memory, and stop'
       '--require:what the mesh has to be, or nothing is written and the'
       '--threads:threads at most'
       '-j:threads at most'
@@ -248,6 +251,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
       '--outward:potentials are taken A outside of the surface [Å]'
+      '--plain-color:of a surface without --color'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
       '--pockets:pockets of the surface, for the report, .pockets.csv, and a'
@@ -262,12 +266,11 @@ if [[ $words[CURRENT] == -* ]]; then
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--min-wall:thicken what is thinner than W mm; with --print-scale'
-      '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
-      '--up:what is upright, such as 0,0,1 of a membrane'\''s normal;'
+      '--view:a direction toward the eye, X,Y,Z or an axis as z or -z;'
+      '--up:what is upright, such as z, the normal of a membrane;'
       '--turn:turned by so many degrees about the upright'
       '--size:width in pixels; the height follows the shape'
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'
-      '--plain-color:of a surface without --color'
       '--style:soft; glossy\: with highlights; outline\: as drawn with a'
       '--show:atoms beside the surface, whole and opaque, such as'
       '--label:a text at the middle of atoms, such as "A/57=active site";'
@@ -321,6 +324,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--waters:keep waters'
       '--radii:van der Waals radii\: a name of --list-radii, or a file'
       '--probe:probe radius [Å]'
+      '--superpose:lay B on A, structures of --panel on INPUT or frames on the'
       '--max-input:bytes that INPUT may have, unpacked, such as 10G'
       '--surface:variational; ses\: solvent-excluded; sas\:'
       '--voxel:edge of a voxel [Å], 0.05 to 10'
@@ -331,8 +335,8 @@ if [[ $words[CURRENT] == -* ]]; then
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
       '--match-volume:resolutions keep the volume of the fine surface'
-      '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
-      '--up:what is upright, such as 0,0,1 of a membrane'\''s normal;'
+      '--view:a direction toward the eye, X,Y,Z or an axis as z or -z;'
+      '--up:what is upright, such as z, the normal of a membrane;'
       '--turn:turned by so many degrees about the upright'
       '--size:width in pixels; the height follows the shape'
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'
@@ -353,7 +357,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--tolerance:converged when a step moves the surface by less than T'
       '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--max-hours:refuse what is estimated to take more hours'
-      '--dry-run:say what it takes, and stop'
+      '--dry-run:print the estimated time and memory, and stop'
       '--threads:threads at most'
       '-j:threads at most'
       '--quiet:print errors only'
@@ -376,16 +380,16 @@ if [[ $words[CURRENT] == -* ]]; then
       '--density:the same with N vertices per Å^2 of surface'
       '--adapt:with --remesh or --density\: shorter edges where it bends,'
       '--fields:curvatures for the vertices of a .ply or .glb, by commas,'
+      '--color:chain, group, element, residue (or residue-type),'
       '--range:values at the ends of the colours'
       '--palette:colours of values and curvatures, low ones first\: viridis,'
-      '--color:chain, group, element, residue (or residue-type),'
+      '--plain-color:of a surface without --color'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
-      '--view:a direction X,Y,Z toward the eye; atoms that face it, as'
-      '--up:what is upright, such as 0,0,1 of a membrane'\''s normal;'
+      '--view:a direction toward the eye, X,Y,Z or an axis as z or -z;'
+      '--up:what is upright, such as z, the normal of a membrane;'
       '--turn:turned by so many degrees about the upright'
       '--size:width in pixels; the height follows the shape'
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'
-      '--plain-color:of a surface without --color'
       '--style:soft; glossy\: with highlights; outline\: as drawn with a'
       '--opacity:of the surface, seen from the front'
       '--all-walls:--opacity shows what is behind the nearest wall, too'
@@ -396,7 +400,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--dpi:pixels an inch when it is printed; --size stays'
       '--turntable:N pictures round the upright\: name.0001.png, ..., or in'
       '--max-hours:refuse what is estimated to take more hours'
-      '--dry-run:say what it takes, and stop'
+      '--dry-run:print the estimated time and memory, and stop'
       '--threads:threads at most'
       '-j:threads at most'
       '--quiet:print errors only'

@@ -135,3 +135,24 @@ def test_instances_repeat_the_surface_of_a_copy():
     assert (len(many), many.copies) == (556, 2)
     assert made.area == pytest.approx(one.area) and len(made.faces) == 2 * len(one.faces)
     assert not many.positions.flags.writeable and made.atom.max() < 556
+
+
+def test_superpose(tmp_path):
+    """As the command does, by its rmsd; what comes back lies where it was."""
+    a, b = (ms.read(DATA / "1d3z.pdb.gz", model=model) for model in (1, 2))
+    turn = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+    start = a.positions.copy()
+    a.positions[:] = start @ turn.T + [40, -25, 60]
+    assert a.superpose(ms.read(DATA / "1d3z.pdb.gz", model=1)) < 1e-6
+    assert np.allclose(a.positions, start, atol=1e-6)
+    rmsd = b.superpose(a)
+    own, other = b.positions[b.name == "CA"], a.positions[a.name == "CA"]
+    assert rmsd == pytest.approx(np.sqrt(((own - other) ** 2).sum(axis=1).mean()), abs=1e-9) and 0.1 < rmsd < 2
+    assert b.superpose(a) == pytest.approx(rmsd, abs=1e-9)
+    mirrored = ms.read(DATA / "1crn.pdb")
+    mirrored.positions[:, 0] *= -1
+    assert mirrored.superpose(ms.read(DATA / "1crn.pdb")) > 3
+    with pytest.raises(ValueError, match="at least three common atoms"):
+        a.superpose(ms.read(DATA / "1crn.pdb", select="resid 1-2"))
+    with pytest.raises(TypeError, match="onto: expected a Molecule"):
+        a.superpose("1crn.pdb")

@@ -343,3 +343,36 @@ def test_forces_where_fronts_move_are_refused(crambin):
         crambin.surface(voxel=1, kind="gaussian").forces(1)
     with pytest.raises(ValueError, match="gamma"):
         crambin.surface(kind="sas", grid=False).forces(float("nan"))
+    with pytest.raises(TypeError, match="expected gamma, energy per Å², or pressure"):
+        crambin.surface(kind="sas", grid=False).forces()
+    assert not crambin.surface(kind="sas", grid=False).forces(gamma=0).any()
+
+
+def test_nanometres_are_named(crambin, recwarn):
+    with pytest.warns(UserWarning, match="are the coordinates in nanometres"):
+        ms.surface(crambin.positions / 10, 1.7, kind="sas", voxel=0.5)
+    recwarn.clear()
+    ms.surface(crambin.positions, 1.7, kind="sas", voxel=1)
+    assert not recwarn.list
+
+
+def test_a_mesh_for_trimesh(crambin):
+    trimesh = pytest.importorskip("trimesh")
+    s = crambin.surface(kind="ses", voxel=0.7, color="element")
+    mesh = s.to_trimesh()
+    assert isinstance(mesh, trimesh.Trimesh) and mesh.is_watertight
+    assert mesh.area == pytest.approx(s.area, rel=0.05) and mesh.volume == pytest.approx(s.volume, rel=0.05)
+    assert np.array_equal(mesh.vertices, s.vertices) and np.array_equal(mesh.faces, s.faces)
+    assert np.allclose(mesh.vertex_attributes["mean_curvature"], s.curvature)
+    assert np.array_equal(mesh.visual.vertex_colors[:, :3], s.colors)
+    mesh.vertices[:] = 0
+    assert np.abs(s.vertices).max() > 1
+
+
+def test_a_mesh_for_pyvista(crambin):
+    pytest.importorskip("pyvista")
+    s = crambin.surface(kind="ses", voxel=0.7)
+    mesh = s.to_pyvista()
+    assert mesh.n_points == len(s.vertices) and mesh.n_cells == len(s.faces) and mesh.is_manifold
+    assert np.allclose(mesh.point_data["mean_curvature"], s.curvature) and "RGB" not in mesh.point_data
+    assert mesh.area == pytest.approx(s.area, rel=0.05)

@@ -106,8 +106,45 @@ class Molecule:
         """What the reader had to say, a line each."""
         return self._core.warnings
 
+    def _keys(self, names, chains):
+        """The places of carbon atoms of these names, by chain (if it counts), number, insertion code and name."""
+        taken = np.flatnonzero(np.isin(self.name, list(names)) & (self.element == 6))
+        return {(str(self.chain[i]) if chains else "", int(self.residue_number[i]), str(self.insertion_code[i]),
+                 str(self.name[i])): i for i in taken[::-1]}
+
+    def superpose(self, onto, names=("CA", "C4'")):
+        """Moves the atoms rigidly onto those of another molecule, with the least root mean square distance (Kabsch).
+
+        onto: a Molecule, which stays where it is.
+        names: names of the carbon atoms that count, where chain, number, insertion code and name are the same in both;
+        the chain does not count where each of the two has one.
+
+        Returns that distance, rmsd [Å], a float. `positions` are the new ones.
+
+        Raises ValueError if fewer than three pairs are common or they lie on one line, or if the molecule has copies that
+        are not among its atoms (by_symmetry, instances).
+        """
+        if not isinstance(onto, Molecule):
+            raise TypeError(f"onto: expected a Molecule, got {type(onto).__name__}")
+        if not self._core.is_whole:
+            raise ValueError("superpose: expected atoms of the whole, not of by_symmetry or instances")
+        chains = len(np.unique(self.chain)) > 1 or len(np.unique(onto.chain)) > 1
+        own, other = self._keys(names, chains), onto._keys(names, chains)
+        common = [key for key in own if key in other]
+        a, b = (np.array(m.positions[[keys[key] for key in common]]).reshape(-1, 3) for m, keys in ((self, own), (onto, other)))
+        if len(common) < 3 or np.linalg.matrix_rank(a - a.mean(axis=0), tol=1e-6) < 2 or \
+                np.linalg.matrix_rank(b - b.mean(axis=0), tol=1e-6) < 2:
+            raise ValueError(f"superpose: expected at least three common atoms that are not on one line, got {len(common)}")
+        u, _, vt = np.linalg.svd((a - a.mean(axis=0)).T @ (b - b.mean(axis=0)))
+        u[:, 2] *= np.sign(np.linalg.det(u @ vt)) # no mirror image
+        turn = u @ vt
+        self.positions[:] = (self.positions - a.mean(axis=0)) @ turn + b.mean(axis=0)
+        return float(np.sqrt((((a - a.mean(axis=0)) @ turn + b.mean(axis=0) - b) ** 2).sum(axis=1).mean()))
+
     def surface(self, **options):
-        """The surface of the atoms. Keywords are those of surface(); read() may have given some.
+        """Makes the surface of the atoms. Keywords are those of surface(); those given to read() are the defaults.
+
+        Returns a Surface. Raises what surface() raises.
 
         Keywords:
         """
@@ -131,10 +168,22 @@ Molecule.surface.__doc__ = Molecule.surface.__doc__.rstrip() + "\n" + _options.d
 
 
 def read(source, *, groups=None, progress=None, threads=0, **options):
-    """Atoms of a file: PDB, mmCIF, BinaryCIF, gro, sdf, mol2, PQR, xyzr or xyzrn, also gzipped.
+    """Reads the atoms of a structure file and chooses which of them the surface has.
 
-    source: a path, the text of a file (with a line feed in it), its bytes, or something that has read().
+    The format is found by the content: PDB, mmCIF, BinaryCIF, gro, sdf, mol2, PQR, PDBQT, xyz, xyzr or xyzrn, also
+    compressed by gzip, bzip2 or xz.
+
+    source: a path, the text of a file (with a line feed in it), its bytes, or an object with a method read().
+    groups: selections by the name of a group, as {"site": "resid 5-9"}.
+    progress: a function of stage and fraction; True shows a bar of tqdm.
+    threads: threads at most; 0: all.
+
     Keywords of surface() are taken, too, and are the defaults of Molecule.surface().
+
+    Returns a Molecule: positions (n, 3) and radii (n,) float64 [Å], names, residues and chains of the n atoms.
+
+    Raises FileNotFoundError or IsADirectoryError for the path, InputError (a ValueError) if the file cannot be read or a
+    selection matches no atom, TypeError for an unknown keyword, OptionError for a value out of range.
 
     Keywords:
     """

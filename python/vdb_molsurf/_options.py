@@ -4,6 +4,7 @@
 import difflib
 import numbers
 import os
+import re
 
 from . import _core
 
@@ -92,11 +93,16 @@ def of_file(color, known):
 
 
 def sentence(row):
-    """What a setting does, the words it may be, and its range."""
+    """What a setting does, the words it may be, and its range; a letter of the text, as L, is the value itself."""
     text = " ".join(row["text"].split()).replace("a name of `list_radii`", SETS)
+    begins_with_word = text.partition(":")[0].partition(";")[0] in row["words"]  # "ses: variational with ..."
+    if not begins_with_word:
+        text = text[:1].upper() + text[1:]
     words = "" if row["type"] != "word" or not row["words"] else f" One of {', '.join(row['words'])}."
     bounds = f"{row['low']:.10g} to {row['high']:.10g}" if row["low"] == row["low"] else ""
-    return f"{text[:1].upper()}{text[1:]}.{words}" + (f" From {bounds}." if bounds not in text else "")
+    value = row.get("value", "")
+    letter = f" {value} is the value." if len(value) == 1 and re.search(rf"\b{value}\b", text) else ""
+    return f"{text}.{words}" + (f" From {bounds}." if bounds not in text else "") + letter
 
 
 def told(where):

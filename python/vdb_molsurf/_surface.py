@@ -311,14 +311,26 @@ class Surface:
             raise ValueError(f"level: expected {', '.join(levels)}, got '{str(level)[:40]}'")
         return _arrays.texts(self._core.table(name, level))
 
-    def forces(self, gamma=0.0, pressure=0.0, *, progress=None, threads=0):
-        """The force on each atom, -(gamma dA/dx + pressure dV/dx), in closed form of kinds ses, sas and vdw.
+    def forces(self, gamma=None, pressure=None, *, progress=None, threads=0):
+        """Computes the force on each atom, -(gamma dA/dx + pressure dV/dx), with the area A and the volume V.
 
-        Of variational and smooth-sas it is that of the mesh, by the shape derivative; gaussian has none. A warning counts
-        atoms of variational beside gaps that were decided, whose forces are uncertain.
+        gamma: energy per area, in your unit of energy per Å².
+        pressure: energy per volume, in that unit per Å³. At least one of the two has to be given.
+        progress: a function of stage and fraction; True shows a bar of tqdm.
+        threads: threads at most; 0: all.
 
-        gamma is energy per Å², pressure energy per Å³; the result, of shape (atoms, 3), is energy per Å.
+        Forces of ses, sas and vdw are in closed form, those of variational and smooth-sas of the mesh, by the shape
+        derivative.
+
+        Returns an array (atoms, 3) float64, in your unit of energy per Å.
+
+        Raises TypeError without gamma and pressure, ValueError for numbers that are not finite, and OptionError for the
+        kind gaussian, which has no forces. A warning counts atoms of variational beside gaps that were decided: their
+        forces are uncertain.
         """
+        if gamma is None and pressure is None:
+            raise TypeError("forces: expected gamma, energy per Å², or pressure, energy per Å³ [hint: forces(gamma=1)]")
+        gamma, pressure = (0.0 if value is None else value for value in (gamma, pressure))
         for name, value in (("gamma", gamma), ("pressure", pressure)):
             if not np.isfinite(float(value)):
                 raise ValueError(f"{name}: expected a finite number")
@@ -355,6 +367,34 @@ class Surface:
         return Distances(*_called(self._core.distance, _arrays.points(points, "points"), progress=progress,
                                   threads=threads))
 
+    def to_trimesh(self):
+        """Makes a trimesh.Trimesh of a copy of the mesh, with vertex normals, and vertex colours if there are any.
+
+        Its `vertex_attributes` hold vertex_data: curvatures, atom_id and others, an array of n rows each.
+
+        Raises ImportError without the package trimesh, AttributeError for a surface without a mesh.
+        """
+        import trimesh
+        mesh = trimesh.Trimesh(self.vertices.copy(), self.faces.copy(), vertex_normals=self.normals.copy(), process=False,
+                               vertex_colors=self.colors.copy() if len(self.colors) else None)
+        mesh.vertex_attributes.update({name: np.array(values) for name, values in self.vertex_data.items()})
+        return mesh
+
+    def to_pyvista(self):
+        """Makes a pyvista.PolyData of a copy of the mesh, whose `point_data` holds vertex_data, Normals and RGB.
+
+        Raises ImportError without the package pyvista, AttributeError for a surface without a mesh.
+        """
+        import pyvista
+        faces = np.insert(self.faces, 0, 3, axis=1).ravel()
+        mesh = pyvista.PolyData(self.vertices.copy(), faces)
+        for name, values in self.vertex_data.items():
+            mesh.point_data[name] = np.array(values)
+        mesh.point_data["Normals"] = self.normals.copy()
+        if len(self.colors):
+            mesh.point_data["RGB"] = self.colors.copy()
+        return mesh
+
     def voxels(self):
         """The voxels of the level set, about three on either side of the surface, and their signed distances."""
         return Voxels(*self._core.voxels())
@@ -366,7 +406,7 @@ class Surface:
         walls: closed pieces that meshes, pictures and pages have: "all", "outer" or "cavities".
         crisp: cuts the triangles of a mesh file where colours meet.
         center: moves the middle of the surface to the origin, in meshes and .vdb.
-        print_scale: .stl, .obj, .wrl and .3mf are in mm, so many per Å.
+        print_scale: .stl, .obj, .wrl and .3mf are in mm, at this many mm per Å.
         """
         if panels is not None and not os.fspath(path).endswith((".png", ".html")):
             raise ValueError("panels: expected a path that ends in .png or .html")
@@ -475,7 +515,17 @@ def _unpickled(state, made):
 
 
 def surface(positions, radii, **options):
-    """The surface of balls at positions (n, 3) with radii (n,), or one for all [Å].
+    """Makes the surface of balls.
+
+    positions: centres, (n, 3), of any numeric type [Å]. A warning names coordinates that look like nanometres.
+    radii: (n,), or one number for all [Å].
+
+    Returns a Surface: vertices (v, 3) and normals (v, 3) float32 [Å], faces (f, 3) int32, area [Å²], volume [Å³],
+    curvatures of the vertices [1/Å] and atom_areas (n,) float64 [Å²].
+
+    Raises TypeError for an unknown keyword or a wrong type, OptionError (a ValueError) for a value out of range, InputError
+    for positions or radii that are not finite, NumericError if the time or memory of max_hours is exceeded, CheckError if
+    the result fails its own checks. A result that is not at rest is a warning.
 
     Keywords:
     """
@@ -485,7 +535,11 @@ def surface(positions, radii, **options):
         if name == "color" and _options.of_file(values[0], ("none", "mean-curvature", "gaussian-curvature")):
             raise ValueError(f"color: '{values[0][:40]}' needs atoms of a file [hint: read()]")
     x, r = _arrays.balls(positions, radii)
-    return Surface(_called(_core.surface, x, r, *made, **how), made)
+    core = _called(_core.surface, x, r, *made, **how)
+    for text in core.warnings:
+        if "nanometres" in text: # the others are in report["warnings"]
+            warnings.warn(f"surface: {text}", stacklevel=2)
+    return Surface(core, made)
 
 
 surface.__doc__ = surface.__doc__.rstrip() + "\n" + _options.documented("surface") + "\n"
@@ -500,9 +554,17 @@ def _probe(probe):
 
 
 def areas(positions, radii, probe=1.4, *, progress=None, threads=0):
-    """The area of each ball of radius r + probe that no other ball covers, in closed form, (n,) float64 [Å²].
+    """Measures the area of each ball of radius r + probe that no other ball covers, in closed form.
 
-    With a probe it is the solvent-accessible area, with 0 the van der Waals area.
+    positions: centres, (n, 3) [Å].
+    radii: (n,), or one number for all [Å].
+    probe: its radius, 0 to 100 [Å]; 0 gives the van der Waals area, else it is the solvent-accessible area.
+    progress: a function of stage and fraction; True shows a bar of tqdm.
+    threads: threads at most; 0: all.
+
+    Returns an array (n,) float64 [Å²], whose sum is the area of the union.
+
+    Raises TypeError or ValueError for wrong arguments, InputError for numbers that are not finite.
     """
     return _called(_core.areas, *_arrays.balls(positions, radii), _probe(probe), progress=progress, threads=threads)
 

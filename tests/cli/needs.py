@@ -20,6 +20,7 @@ NODE = shutil.which("node")
 BPY_PYTHON = os.environ.get("BPY_PYTHON", sys.executable)  # a Python that has the module bpy
 MDANALYSIS_PYTHON = os.environ.get("MDANALYSIS_PYTHON", sys.executable)  # the same of MDAnalysis and prody
 KVFINDER_PYTHON = os.environ.get("KVFINDER_PYTHON", sys.executable)  # the same of pyKVFinder
+MODULE_PYTHON = os.environ.get("MOLSURF_MODULE") or str(ROOT / ".venv" / "bin" / "python")  # the same of vdb_molsurf
 USD_PYTHON = os.environ.get("USD_PYTHON", sys.executable)  # the same of OpenUSD, pxr
 # Where scripts/install_deps.sh puts packages of npm, and where npm does with --global.
 NODE_ENVIRONMENT = {**os.environ, "NODE_PATH": os.pathsep.join(filter(None, [
@@ -70,6 +71,8 @@ def program(*names):
 
 # Name: (whether it is here, what to do if not).
 NEEDS = {
+    "pdb2pqr": (program("pdb2pqr"), "scripts/install_deps.sh pdb2pqr"),
+    "parallel": (program("parallel"), "scripts/install_deps.sh parallel"),
     "biopython": (lambda: all(map(importlib.util.find_spec, ("numpy", "Bio"))),
                   "scripts/install_deps.sh python3-biopython"),
     "blender": (program("blender"), "scripts/install_deps.sh blender"),
@@ -90,6 +93,8 @@ NEEDS = {
              "scripts/install_deps.sh python3-mrcfile python3-griddataformats python3-skimage"),
     "mdanalysis": (lambda: runs(MDANALYSIS_PYTHON, "-c", "import MDAnalysis, prody"),
                    "pip install MDAnalysis prody, and MDANALYSIS_PYTHON=<that Python>"),
+    "module": (lambda: runs(MODULE_PYTHON, "-c", "import vdb_molsurf"),
+               "pip install ., and MOLSURF_MODULE=<that Python>; .ci/checks runs it"),
     "openvdb": (lambda: all(map(importlib.util.find_spec, ("numpy", "pyopenvdb"))),
                 "scripts/install_deps.sh python3-openvdb python3-numpy"),
     "preload": (lambda: runs(os.environ["VDB_MOLSURF"], "--version", env=faulty()),

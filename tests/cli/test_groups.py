@@ -54,7 +54,7 @@ class Refused(ToolTest):
         self.refuse(2, "--color", "group", says="--groups")
         self.refuse(2, "--split", "chain", "--group-by", "chain", says="chain")
         self.refuse(2, "--split", "group", says="--groups")
-        self.refuse(2, "--interfaces", says="--groups")
+        self.refuse(1, "--interfaces", says="--groups FILE names parts of a chain")
         self.refuse(2, "--surface-of", "a", "--group-by", "chain", says="GROUP=KIND")
         self.refuse(1, "--surface-of", "B=vdw", "--group-by", "chain", says=["'B'", "A"])
         self.refuse(2, "--groups", self.write("a A\n"), "--group-by", "chain", says="together")

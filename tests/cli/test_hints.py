@@ -117,6 +117,10 @@ FILES = {
     "moved.pdb": pdb((1, 0, "CA", "C", 1), (2, 5, "CA", "C", 1), head=biomt((0, 0, 0), (0, 30, 0))),
     "bent.pdb": pdb((1, 9, "CA", "C", 1), (2, 12, "CA", "C", 1),
                     head=biomt((0, 0, 0), (1, 0, 0), (0, 400, 0), (1, -400, 1.5))),
+    "nm.xyzr": "".join(f"{x / 10:.4f} {y / 10:.4f} {z / 10:.4f} 1.7\n" for x, y, z in TUBE),
+    **{f"{name}.pdb": "".join(f"ATOM  {i:5}  CA  ALA A{i:4}    {x + shift:8.3f}{y:8.3f}{0:8.3f}  1.00{0:6.2f}           C\n"
+                              for i, (x, y) in enumerate(((0, 0), (3.8, 0), (3.8, 3.8), (0, 3.8)), 1))
+       for name, shift in (("here", 0), ("away", 90))},
     "groups.json": '{"groups": [{"name": "a", "select": "A", "colour": "#d55e00"}]}',
     "copies.json": '{"groups": [{"name": "a", "select": "A", "copies": "1"}]}',
     "own.prm": "XYZR_FileName = exposed.xyz\n", "fine.prm": "XYZR_FileName = ball.xyzr\nGrid_scale = 9\n",
@@ -132,6 +136,14 @@ MERGE = "vdb_molsurf bricks merge plan.json -o a.vdb"
 
 # {source: [(hint, a call that gives it, calls that follow it...)]}; calls are lines of a shell, in one folder.
 CASES = {
+    "picture/atom_model.cpp": [
+        ('--show "resid 1-9=sticks"', f"vdb_molsurf 1crn.pdb {FAST} --show 'resid 1-9' -o a.png",
+         f"vdb_molsurf 1crn.pdb {FAST} --show 'resid 1-9=sticks' -o a.png")],
+    "surface/check_balls.cpp": [
+        ("multiply them by 10", f"vdb_molsurf nm.xyzr {FAST} -o a.ply", f"vdb_molsurf tube.xyzr {FAST} -o b.ply")],
+    "tools/draw_result.cpp": [
+        ("--show pockets=all", "vdb_molsurf 4at1.ent.gz --voxel 0.7 --surface ses --show pockets --size 60 -o a.png",
+         "vdb_molsurf 4at1.ent.gz --voxel 0.7 --surface ses --show pockets=all --size 60 -o b.png")],
     "picture/view_file.cpp": [
         ("-o NAME.view writes one", f"printf '{{}}' > bad.view; vdb_molsurf 1crn.pdb {FAST} --view bad.view -o a.png",
          f"vdb_molsurf 1crn.pdb {FAST} -o NAME.view; vdb_molsurf 1crn.pdb {FAST} --view NAME.view -o a.png")],
@@ -142,6 +154,7 @@ CASES = {
         ("a smaller --lambda", "vdb_molsurf two.xyzr --lambda 1e4 --regularizer area -o a.vdb",
          "vdb_molsurf two.xyzr --lambda 1 --regularizer area -o a.vdb")],
     "core/words.cpp": [
+        ("did you mean --version?", "vdb_molsurf -version", "vdb_molsurf --version"),
         ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
     "surface/check_mesh.cpp": [
@@ -151,6 +164,8 @@ CASES = {
     "surface/pose_error.cpp": [
         ("--lambda 0.04", "vdb_molsurf 1crn.pdb --lambda 0.1 --voxel 1 -o a.ply", "vdb_molsurf 1crn.pdb --lambda 0.04 --voxel 1 -o b.ply")],
     "surface/settings.cpp": [
+        ("--group-by chain --split group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 {FAST} --split chain -o a.ply",
+         f"vdb_molsurf 1a8o.cif.gz --assembly 1 {FAST} --group-by chain --split group -o a.ply"),
         ("--color plain=red", f"vdb_molsurf one.xyzr {FAST} --color red -o a.ply",
          f"vdb_molsurf one.xyzr {FAST} --color plain=red -o a.ply"),
         ("all, or some of", "vdb_molsurf 1crn.pdb --fields qqqqqq -o a.vdb",
@@ -364,11 +379,15 @@ CASES = {
         ("--surface ses", "vdb_molsurf 1crn.pdb --color pocket --voxel 0.7 -o a.ply",
          "vdb_molsurf 1crn.pdb --color pocket --voxel 0.7 --surface ses -o b.ply")],
     "tools/build.cpp": [
+        ("--groups FILE names parts of a chain", "vdb_molsurf 1crn.pdb --interfaces -o a.json",
+         "printf 'a resid 1-20\\nb resid 21-46\\n' > FILE; vdb_molsurf 1crn.pdb --interfaces --groups FILE -o a.json"),
+        ("--groups FILE names parts of them", "vdb_molsurf 1crn.pdb -o a.interfaces.csv",
+         "printf 'a resid 1-20\\nb resid 21-46\\n' > FILE; vdb_molsurf 1crn.pdb --groups FILE -o b.interfaces.csv"),
         ("--pocket-cut 0 finds", "vdb_molsurf 1ubq.pdb --pocket-at 'resid 10' -o a.pockets.csv",
          "vdb_molsurf 1ubq.pdb --pocket-at 'resid 10' --pocket-cut 0 -o a.pockets.csv"),
-        (" opens the widest", "vdb_molsurf tube.xyzr -o a.ply", "vdb_molsurf tube.xyzr --epsilon 0.25 -o a.ply --force",
-         "vdb_molsurf tube.xyzr --surface ses -o a.ply --force"),
-        (" --voxel ", "vdb_molsurf cage.xyzr -o a.ply", "vdb_molsurf cage.xyzr --epsilon 0.1 --voxel 0.2 -o a.ply --force"),
+        (" opens the widest", "vdb_molsurf tube.xyzr -v -o a.ply", "vdb_molsurf tube.xyzr -v --epsilon 0.25 -o a.ply --force",
+         "vdb_molsurf tube.xyzr -v --surface ses -o a.ply --force"),
+        (" --voxel ", "vdb_molsurf cage.xyzr -v -o a.ply", "vdb_molsurf cage.xyzr -v --epsilon 0.1 --voxel 0.2 -o a.ply --force"),
         ("--surface", f"vdb_molsurf 1crn.pdb --voxel 1 -o a.ply -o a.residues.csv",
          "vdb_molsurf 1crn.pdb --voxel 1 --surface ses -o b.ply -o b.residues.csv"),
         ("fewer atoms by --select, or --max-hours 1",
@@ -408,9 +427,13 @@ CASES = {
         ("--memory ", "vdb_molsurf 1crn.pdb --voxel 2 --memory 10M -o a.ply", # and then the hint that follows
          f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply || vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply")],
     "surface/solver_files.cpp": [
+        ("--pdie 2 --sdie 80", "vdb_molsurf ion.pqr --for apbs --pdie 80 --sdie 2 -o near/",
+         "vdb_molsurf ion.pqr --for apbs --pdie 2 --sdie 80 --force -o near/"),
         ("--surface ses, or --match ses", "vdb_molsurf ion.pqr --for apbs --surface vdw -o far/",
          "vdb_molsurf ion.pqr --for apbs --surface ses --force -o far/ && vdb_molsurf ion.pqr --for apbs --match ses --force -o far/")],
     "tools/cli/complete.cpp": [
+        ("-o FILE.pockets.csv", "vdb_molsurf 1crn.pdb -o a.pocket.csv", "vdb_molsurf 1crn.pdb --surface ses -o a.pockets.csv"),
+        ("a name without .gz", f"vdb_molsurf 1crn.pdb {FAST} -o a.vdb.gz", f"vdb_molsurf 1crn.pdb {FAST} -o a.vdb"),
         ("-o run/", "vdb_molsurf ion.pqr --for apbs -o a.ply",
          "vdb_molsurf ion.pqr --for apbs -o run/"),
         ("--for apbs -o run/", "vdb_molsurf ion.pqr -o a.apbs.in", "vdb_molsurf ion.pqr --for apbs -o run/ --force"),
@@ -462,7 +485,13 @@ CASES = {
          f"vdb_molsurf one.xyzr {FAST} -o x.png --turntable 2"),
         ("-o NAME.png writes the pictures one by one", f"ln -sf /bin/false ffmpeg; PATH=.:$PATH vdb_molsurf one.xyzr {FAST} -o x.mp4 --turntable 2",
          f"vdb_molsurf one.xyzr {FAST} --force -o x.png --turntable 2")],
+    "tools/cli/option_table.cpp": [
+        ("all cores are used without --threads", f"vdb_molsurf one.xyzr {FAST} -j 0 -o a.ply", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
     "tools/cli/pair_table.cpp": [
+        ("vdb_molsurf compare A B --superpose auto", f"vdb_molsurf 1crn.pdb {FAST} --superpose auto -o a.ply",
+         f"cp 1crn.pdb A; cp 1crn.pdb B; vdb_molsurf compare A B --superpose auto {FAST}"),
+        ("another --color", f"vdb_molsurf 1d3z.pdb.gz {FAST} --frames 1 --superpose auto --color potential=x.dx -o a.ply",
+         f"vdb_molsurf 1d3z.pdb.gz {FAST} --frames 1 --superpose auto --color chain -o a.ply"),
         ("--turntable 100", f"{FFMPEG} vdb_molsurf one.xyzr {FAST} -o y.mp4", f"{FFMPEG} vdb_molsurf one.xyzr {FAST} --size 60 -o y.mp4 --turntable 100"),
         ("without --instances", "vdb_molsurf 1a8o.cif.gz --assembly 1 --instances -o a.forces.csv",
          "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.forces.csv"),
@@ -509,11 +538,12 @@ CASES = {
         ("--group-by class --color group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 --color class --group-by chain {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 --group-by class --color group {FAST} -o a.ply")],
     "tools/cli/parse.cpp": [
-        ("did you mean --version?", "vdb_molsurf -version", "vdb_molsurf --version"),
         ("vdb_molsurf help", "vdb_molsurf bricks", "vdb_molsurf help | grep 'bricks plan'"),
         ("vdb_molsurf convert --help", "vdb_molsurf convert a.vdb --qqqqqq", "vdb_molsurf convert --help"),
-        ("vdb_molsurf --help", "vdb_molsurf 1crn.pdb -o", "vdb_molsurf --help | grep -e '-o,'")],
+        ("for example --output surface.vdb", "vdb_molsurf 1crn.pdb -o", f"vdb_molsurf 1crn.pdb {FAST} --output surface.vdb"),
+        ("vdb_molsurf --help", "vdb_molsurf 1crn.pdb --qqqqqq", "vdb_molsurf --help | grep -e '-o,'")],
     "tools/compare.cpp": [
+        ("--superpose auto lays B on A", f"vdb_molsurf compare here.pdb away.pdb {FAST}", f"vdb_molsurf compare here.pdb away.pdb {FAST} --superpose auto"),
         ("write a plain .vdb", f"vdb_molsurf two.xyzr {FAST} --for blender4 -o a.vdb; vdb_molsurf compare a.vdb two.xyzr",
          f"vdb_molsurf two.xyzr {FAST} -o b.vdb && vdb_molsurf compare b.vdb two.xyzr {FAST}"),
         ("a larger --max-hours", "vdb_molsurf 1crn.pdb --voxel 0.25 --surface sas -o a.ply; "
@@ -576,6 +606,7 @@ UNTRIED = {
                                     "unzip": "it takes unzip", "tar -xf": "it takes a tar archive", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
     "structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
     "structure/read_xyz.cpp": {"Open Babel": "it takes Open Babel"},
+    "selection/superpose.cpp": {"`select` takes one chain of each": "cli.superpose follows it"},
     "surface/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
     "surface/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
     "surface/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},
@@ -584,6 +615,7 @@ UNTRIED = {
     "surface/unit_mesh.cpp": {"a .glb file": "it takes a mesh of 2^32 vertices", "a larger `voxel`": "it takes copies of 2^32 vertices"},
     "surface/unit_run.cpp": {"a smaller `voxel`": "no unit is known that gives it",
                              "edges of": "no unit is known that gives it"},
+    "tools/build.cpp": {"the page has": "cli.page follows it"},
     "tools/input_files.cpp": {"an address": "it takes the network", "Protein Data Bank": "it takes the network"},
     "tools/main.cpp": {"a larger --voxel": "what has memory by the estimate seldom ends so"},
     "tools/outputs.cpp": {" accepts that, a smaller --voxel resolves it": "no small molecule is known that gives it"},
@@ -647,7 +679,7 @@ class Hints(Followed):
         (self.folder / "necked.xyzr").write_text(xyzr(tube([3.9] * 3 + [3.3] * 2 + [3.9] * 5 + [3.3] * 2 + [3.9] * 3)))
 
         def euler(*words):
-            done = self.check(0, "necked.xyzr", *words, "-o", "a.json", "--force")
+            done = self.check(0, "necked.xyzr", *words, "-v", "-o", "a.json", "--force")
             return json.loads((self.folder / "a.json").read_text())["surface"]["euler_characteristic"], done.stderr.decode()
 
         shut, said = euler()

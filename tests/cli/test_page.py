@@ -221,6 +221,70 @@ class Page(ToolTest):
             self.assertIn("reset view", browser.evaluate("document.getElementById('keys').textContent"))
             self.assertEqual(browser.console, [])
 
+    def test_a_large_page_is_named(self):
+        """With voxels that make it lighter."""
+        done = self.check(0, DATA / "4at1.ent.gz", "--voxel", 0.24, "-o", "a.html")
+        hint = re.search(r"a\.html: the page has \d+ MB \[hint: --voxel ([\d.]+) makes it lighter\]", done.stderr.decode())
+        self.assertTrue(hint, done.stderr)
+        done = self.check(0, DATA / "4at1.ent.gz", "--voxel", hint[1], "-o", "a.html", "--force")
+        self.assertLess((self.folder / "a.html").stat().st_size, 12e6)
+        self.assertNotIn(b"lighter", done.stderr)
+
+    @needs("chromium")
+    def test_a_residue_is_turned_into_sight(self):
+        """Whatever side it is on: Enter turns to it, and its line is in the panel without scrolling."""
+        self.page(DATA / "4at1.ent.gz", "--voxel", "1", "--color", "chain", "--show", "pockets")
+        with self.opened((1000, 700)) as browser:
+            self.ready(browser)
+            headings = browser.evaluate("[...document.querySelectorAll('#legend h2')].map((h) => h.textContent)")
+            self.assertEqual(headings, ["Chain", "Pockets"])
+            # A key works before anything was clicked, but is a letter in the search.
+            keys = "getComputedStyle(document.getElementById('keys')).display"
+            for kind in ("keyDown", "keyUp"):
+                browser.call("Input.dispatchKeyEvent", type=kind, key="?", text="?" if kind == "keyDown" else "")
+            self.assertEqual(browser.evaluate(keys), "grid")
+            for kind in ("keyDown", "keyUp"):
+                browser.call("Input.dispatchKeyEvent", type=kind, key="?", text="?" if kind == "keyDown" else "")
+            browser.evaluate("document.getElementById('search').focus(); 0")
+            for kind in ("keyDown", "keyUp"):
+                browser.call("Input.dispatchKeyEvent", type=kind, key="?", text="?" if kind == "keyDown" else "")
+            self.assertEqual(browser.evaluate(f"[{keys}, document.getElementById('search').value]"), ["none", "?"])
+            rows = [text.split() for text in browser.evaluate("(() => { const e = document.getElementById('search'); e.value = ''; "
+                    "e.dispatchEvent(new Event('input')); return [...document.getElementById('residues').options].map((o) => o.text); })()")]
+            exposed = [" ".join(row[:3]) for row in rows if float(row[3]) > 15]
+            self.assertGreater(len(exposed), 300)
+            for name in exposed[7::len(exposed) // 6]:
+                browser.evaluate(f"(() => {{ const e = document.getElementById('search'); e.value = '{name}'; "
+                                 "e.dispatchEvent(new Event('input')); delete document.body.dataset.rests; "
+                                 "e.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter', bubbles: true})); })(); 0")
+                self.ready(browser)
+                self.assertTrue(browser.evaluate("document.getElementById('chosen').textContent").startswith(name))
+                low = browser.evaluate("document.getElementById('chosen').getBoundingClientRect().bottom")
+                self.assertLess(low, 700)
+                # Marked vertices are yellow, which no chain's colour is in this light.
+                marked = sum(r > 200 and g > 150 and b < 110 and r - b > 130 for row in self.pixels(browser)
+                             for r, g, b in row[230:])
+                self.assertGreater(marked, 60, name)
+            self.assertEqual(browser.console, [])
+
+    @needs("chromium")
+    def test_one_surface_of_two_fills_the_stage(self):
+        self.page(CRAMBIN, *FAST, "--panel", "ses")
+        choose = "{{ delete document.body.dataset.rests; const c = document.getElementById('layer'); c.selectedIndex = {}; " \
+                 "c.dispatchEvent(new Event('change')); }} 0"
+        heights = []
+        with self.opened((700, 700)) as browser:
+            for n in (None, 1, 0, 2):
+                if n is not None:
+                    browser.evaluate(choose.format(n))
+                self.ready(browser)
+                _, rows = self.shown(browser)
+                heights.append(sum(len(row) > 0 for row in rows.values()))
+        both, one, again, other = heights
+        self.assertGreater(one, 1.2 * both / 2 if both > 500 else 1.3 * both)
+        self.assertAlmostEqual(again, both, delta=12)
+        self.assertAlmostEqual(other, one, delta=40)
+
     def layers(self, page):
         """The headers of a page's surfaces, and the arrays of each."""
         header = json.loads(element(page, "header"))

@@ -83,8 +83,8 @@ class PaperTables(ToolTest):
         self.assertEqual([line for line in lines[1:] if line not in text], [])  # but the command
 
     def test_documented_numbers(self):
-        """Areas and volumes of 1A8O in docs/paper.md are those of today, within half a per cent."""
-        text = (ROOT / "docs" / "paper.md").read_text()
+        """Areas and volumes of 1A8O in docs/development/paper.md are those of today, within half a per cent."""
+        text = (ROOT / "docs" / "development" / "paper.md").read_text()
         rows = re.findall(r"^\| 1A8O \| 1112 \|(.*)\|$", text, re.MULTILINE)
         documented = [[float(cell.split()[0]) for cell in row.split("|")[:3]] for row in rows]
         self.call(0, DATA / "1a8o.cif.gz", "--epsilon", "", "--lambda", "", "-o", "t.json")

@@ -53,7 +53,7 @@ class Pictures(ToolTest):
         red = names.index("red")
         self.assertEqual({v[red:red + 3] for v in vertices}, {blue, green})
         # Tubes are in the legend, beside those of the surface or in one of their own.
-        shown = ["--select", "A|C", "--show", "B=tube", "--show", "chain D and resid 1 to 20=sticks"]
+        shown = ["--select", "A|C", "--show", "B=tube", "--show", "chain D and resid 1 to 20=sticks,golden"]
         for color, expected in (("chain", [True, True, True, False]), ("hydrophobicity", [False, True, False, False])):
             _, rows = self.picture(*words, *shown, "--color", color)
             self.assertEqual([self.has(rows, c) for c in (blue, orange, green, purple)], expected, color)
@@ -224,6 +224,64 @@ class Pictures(ToolTest):
                             ("(XYZ)=sticks", "matches no atom"), ("A//CB=tube", "nothing to show")):
             self.check(1 if "XYZ" in value or "CB" in value else 2, CRAMBIN, "-o", "b.png", "--show", value, says=says)
         self.check(0, CRAMBIN, *FAST, "-o", "b.ply", "--show", "sticks", says="--show is for .html, .png")
+
+    def test_a_ligand_in_its_pocket(self):
+        """Bodies of pockets hide at most half of the pixels of ATP, and are in the picture."""
+        (self.folder / "a.view").unlink(missing_ok=True)
+        words = [DATA / "4at1.ent.gz", "--voxel", 1, "--select", "chain B or resn ATP", "--size", 400, "--legend", "off"]
+        self.check(0, *words, "--view", "chain B and resn ATP", "-o", "a.view")
+        words += ["--view", "a.view"]
+        sticks, pockets = ["--show", "resn ATP=sticks"], ["--show", "pockets", "--pocket-at", "chain B and resn ATP"]
+        empty, alone = self.picture(*words, "--opacity", 0.01)[1], self.picture(*words, "--opacity", 0.01, *sticks)[1]
+        far = lambda a, b: sum(abs(x - y) for x, y in zip(a, b))  # noqa: E731
+        mask = [(y, x) for y, row in enumerate(alone) for x, pixel in enumerate(row) if far(pixel, empty[y][x]) > 90]
+        self.assertGreater(len(mask), 300)
+        for opacity in (0.2, 0.4):
+            shown = self.picture(*words, "--opacity", opacity, *sticks)[1]
+            both = self.picture(*words, "--opacity", opacity, *sticks, *pockets)[1]
+            kept = sum(far(both[y][x], shown[y][x]) < 120 for y, x in mask)
+            self.assertGreater(kept, len(mask) / 2)
+            changed = sum(far(a, b) > 20 for one, other in zip(both, shown) for a, b in zip(one, other))
+            self.assertGreater(changed, 500)
+
+    def test_few_pockets_in_colours_of_their_own(self):
+        """The eight largest unless all are asked for; none has the colour of a chain."""
+        words = [DATA / "4at1.ent.gz", "--voxel", 1, "--color", "chain", "--size", 700, "-o", "a.legend.svg", "-o", "a.png", "--force"]
+        colors = {}
+        for show, count in (("pockets", 8), ("pockets=3", 3), ("pockets=all", None)):
+            done = self.check(0, *words, "--show", show)
+            text = (self.folder / "a.legend.svg").read_text()
+            tree = xml.etree.ElementTree.fromstring(text)
+            fills = [e.get("fill") for e in tree.iter() if e.tag.endswith("rect") and (e.get("fill") or "").startswith("#")]
+            colors[show] = fills
+            if count:
+                self.assertIn(f"pictures show the {count} largest of", done.stderr.decode())
+            else:
+                self.assertNotIn(b"pictures show", done.stderr)
+        chains = 12
+        self.assertEqual(len(colors["pockets"]) - len(colors["pockets=3"]), 5)
+        names, bodies = colors["pockets"][-8 - chains:-8], colors["pockets"][-8:]
+        self.assertEqual(len(set(bodies)), 8)
+        self.assertFalse(set(bodies) & set(names))
+
+    def test_carbon_has_the_colour_of_its_chain(self):
+        """In an interface no stick of one chain looks like the patch of the other; golden by a word, or of one chain."""
+        words = ["--voxel", 1, "--color", "chain", "--style", "flat", "--size", 300, "--legend", "off", "--view", "z"]
+        both = [DATA / "4at1.ent.gz", *words, "--select", "chain B"]
+        golden, show = (242, 184, 60), "chain A and within 8 of chain B"
+        counts = {}
+        for row in self.picture(*both)[1]:
+            for pixel in row:
+                counts[pixel] = counts.get(pixel, 0) + 1
+        patch = max((count, pixel) for pixel, count in counts.items() if pixel != WHITE)[1]
+        sticks = self.picture(*both, "--show", f"{show}=sticks", "--opacity", 0.01)[1]
+        self.assertFalse(self.has(sticks, golden))
+        drawn = [pixel for row in sticks for pixel in row if max(abs(a - b) for a, b in zip(pixel, WHITE)) > 60]
+        self.assertGreater(len(drawn), 500)
+        self.assertEqual([p for p in drawn if sum((a - b) ** 2 for a, b in zip(p, patch)) < 30 ** 2], [])
+        self.assertTrue(self.has(self.picture(*both, "--show", f"{show}=sticks,golden")[1], golden))
+        one = self.picture(CRAMBIN, *words, "--select", "resid 1-9", "--show", "resid 20-30=sticks")[1]
+        self.assertTrue(self.has(one, golden))
 
     def test_atoms_of_frames_and_copies(self):
         self.check(0, DATA / "1d3z.pdb.gz", *FAST, "--frames", "1-2", "--show", "sticks", "--opacity", "0.3", "--size", "150",

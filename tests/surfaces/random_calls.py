@@ -154,7 +154,9 @@ def surface_options(rng):
         lambda: ["--radii", rng.choice(("bondi", "protor", "naccess", "gemmi", "alvarez"))],
         lambda: ["--areas", rng.choice(("atoms", "residues", "contacts,interfaces"))],
         lambda: ["--contacts", rng.choice(("atom", "residue", "chain"))],
-        lambda: ["--frames", rng.choice(("all", "1", "1-2", "2-9:3"))],
+        lambda: ["--frames", rng.choice(("all", "1", "1-2", "2-9:3", "1:3"))],
+        lambda: ["--frames", "all", "--superpose", rng.choice(("auto", "A", "A/1-3", "["))],
+        lambda: ["--pockets", "--show", rng.choice(("pockets=2", "pockets=all", "pockets=0", "pocket1,A"))],
         lambda: ["--memory", rng.choice(("50M", "100M", "4G"))],
         lambda: ["--for", rng.choice(("blender", "blender4", "houdini", "usd", "blender=nm"))],
         lambda: ["--print-scale", "1", "--min-wall", rng.choice(("1", "5"))],
@@ -184,6 +186,11 @@ def call(rng, folder):
     (folder / name).write_text(mutated(INPUTS[kind](rng), rng))
     if rng.random() < 0.05:
         return ["info", name]
+    if rng.random() < 0.05:
+        other = rng.choice(sorted(INPUTS))
+        (folder / f"in.2.{other}").write_text(mutated(INPUTS[other](rng), rng))
+        words = ["compare", name, f"in.2.{other}", "--voxel", rng.choice(("1", "2")), "-o", "out.json"]
+        return words + rng.choice(([], ["--superpose", rng.choice(("auto", "A", "A/1-3", "*", "["))]))
     endings = ("vdb", "ply", "obj", "stl", "off", "glb", "3mf", "html", "json", "png", "atoms.csv", "residues.csv",
                "contacts.csv", "interfaces.csv", "pdb", "cif", "usda", "mrc", "dx", "vert", "face", "cxc", "pml")
     outputs = [f"out.{ending}" for ending in rng.sample(endings, rng.choice((1, 1, 2, 3)))]

@@ -25,7 +25,8 @@
 namespace molsurf
 {
 class OutputFile;
-}
+struct Anchors;
+} // namespace molsurf
 
 namespace molsurf::tool
 {
@@ -119,8 +120,10 @@ struct Call : Settings, PictureSettings, FileSettings {
     std::string folder;                   ///< Batch: where the files go
     std::string formats = "vdb,ply,json"; ///< Batch: of every structure
     bool force = false;
-    bool skipExisting = false;     ///< Build: nothing is done where it was done before
-    std::string frames;            ///< of --frames; empty: none
+    bool skipExisting = false; ///< Build: nothing is done where it was done before
+    std::string frames;        ///< of --frames; empty: none
+    std::string superpose;     ///< atoms that lay B on A, panels on the first structure, frames
+                               ///< on the first one: "auto" or a selection; empty: nothing moves
     bool updateSelections = false; ///< whether selections by distance are those of each frame
     std::string trajectory;        ///< a .dcd or .xtc with the frames; empty: models are
     double fps = 0.0;              ///< frames per second; 0: times are in frames
@@ -132,9 +135,12 @@ struct Call : Settings, PictureSettings, FileSettings {
     ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts
     bool weld = false;                             ///< units of a whole share their vertices
     double wall = 0.0;                             ///< least thickness of a print [mm]; 0: none
-    std::string viewed;          ///< atoms that face the eye, a selection; empty: none
-    std::vector<ShowRule> shows; ///< atoms that pictures show beside the surface
-    bool showsPockets = false;   ///< whether pictures and pages show the bodies of pockets
+    std::string viewed;           ///< atoms that face the eye, a selection; empty: none
+    std::vector<ShowRule> shows;  ///< atoms that pictures show beside the surface
+    std::size_t shownPockets = 0; ///< how many bodies of pockets pictures and pages show at most,
+                                  ///< the largest ones
+
+    bool showsPockets() const { return shownPockets > 0; }
     std::vector<NoteText> notes; ///< labels and rulers of pictures
     std::vector<Panel> panels;   ///< of pictures, beside the first one
     int turntable = 0;           ///< number of pictures; 0: one
@@ -151,10 +157,11 @@ struct Call : Settings, PictureSettings, FileSettings {
     bool progress = true;
     std::string config;
 
-    std::string input;                 ///< the first of `inputs`
-    std::string inputSha256, identity; ///< as tools/identity.h has them; empty: not known yet
-    std::size_t brick = 0;             ///< BricksRun: its number, from 1
-    std::vector<Output> outputs;       ///< Batch: extensions in the place of paths
+    std::string input;                      ///< the first of `inputs`
+    std::string inputSha256, identity;      ///< as tools/identity.h has them; empty: not known yet
+    std::size_t brick = 0;                  ///< BricksRun: its number, from 1
+    std::vector<Output> outputs;            ///< Batch: extensions in the place of paths
+    std::shared_ptr<const Anchors> anchors; ///< of the first structure, for `superpose`
     /// Of `panels` that have one, once they are made.
     std::shared_ptr<std::vector<PanelSurface>> panelSurfaces;
     int frame = 0;                     ///< the number of the one that is built; 0: none is

@@ -54,11 +54,29 @@ std::vector<std::string> wordsOf(const std::string& text)
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// Refuses a name as x.residues.json, whose file would hold something else.
+/// The first part of a format of two parts, as "pockets" of "pockets.csv", that a word is or is
+/// the singular or the plural of; empty: none.
+std::string partNamed(const std::string& word)
+{
+    std::vector<std::string> parts = areaTables();
+    parts.push_back("legend");
+    for (const std::string& part : parts)
+        if (word == part || word + "s" == part || word == part + "s") return part;
+    return "";
+}
+
+/// Refuses a name as x.residues.json or x.pocket.ply, whose file would hold something else.
 void checkTable(const std::string& path, const std::string& word)
 {
     const std::string stem = path.substr(0, path.size() - std::min(word.size() + 1, path.size()));
-    const std::string table = lowered(stem.substr(stem.rfind('.') + 1));
+    const std::string typed = lowered(stem.substr(stem.rfind('.') + 1)), table = partNamed(typed);
+    if (!table.empty() && typed != table && word.find('.') == std::string::npos &&
+        typed.size() < stem.size()) {
+        const std::string meant =
+            findFormat(table + "." + word) ? table + "." + word : table + ".csv";
+        misuse("-o " + path + ": it would hold the whole surface [hint: -o FILE." + meant +
+               ", or a name without ." + typed + "]");
+    }
     if (word.find('.') == std::string::npos && table.size() < stem.size() &&
         std::count(areaTables().begin(), areaTables().end(), table) > 0) {
         const std::string both = table + "." + word;
@@ -100,6 +118,9 @@ bool isFolder(const std::string& path)
         if (std::count(words.begin(), words.end(), word) > 0 && (format->verbs & call.verb))
             hint = std::string(" [hint: .") + ours + "; --help lists the formats]";
     }
+    const bool packed = word == "gz" || word == "bz2" || word == "xz" || word == "zip";
+    if (packed)
+        hint = " [hint: a name without ." + word + "; a .vdb is compressed as it is written]";
     if (hint.empty()) hint = " [hint: --help lists the formats]";
     misuse("-o " + path + ": ." + word + " is no format that " + infoOf(call.verb).name +
            " writes" + hint);
@@ -162,7 +183,7 @@ std::vector<Output> outputsOf(const Call& call)
 /// A hint for many structures.
 const char* manyHint(const Call& call)
 {
-    return call.verb & Build
+    return call.verb & (Build | Batch)
                ? " [hint: ls FILES | vdb_molsurf batch - -O DIR makes a surface of each]"
                : "";
 }
@@ -211,8 +232,8 @@ void completeSolver(Call& call)
     call.atoms.charges = true;
     SurfaceSpec& surface = call.options;
     if (!call.has("surface") && surface.inset == 0.0) surface.kind = SurfaceKind::SolventExcluded;
-    const std::string warning = withOptionNames(solverWarning(surface));
-    if (!warning.empty()) call.warnings.push_back(warning);
+    for (const std::string& warning : solverWarnings(surface, call.dielectric))
+        call.warnings.push_back(withOptionNames(warning));
 }
 
 // Adds the fields and files that --for implies, and gives the least wall in Å, not in mm of the
@@ -346,21 +367,20 @@ void completeAreas(Call& call)
         call.options.areasOf = SurfaceKind::SolventAccessible;
         if (call.writesOnly(Areas | Shares)) call.options.kind = SurfaceKind::SolventAccessible;
     }
-    call.options.pockets |= call.showsPockets || call.writes(Shares);
+    call.options.pockets |= call.showsPockets() || call.writes(Shares);
     call.options.grid = !asksForNumbers(call);
     call.atoms.names = !tables.empty() || call.writes(ColorChoices);
-    if (tables.empty()) return;
     SurfaceOptions& options = call.options;
+    options.interfaces |= tables.count("interfaces") > 0;
+    if (options.interfaces && call.groupsFile.empty() && !call.atoms.groupBy && !call.colorGroups)
+        call.atoms.groupBy = GroupBy{GroupBy::Kind::Chain};
+    if (tables.empty()) return;
     options.contacts = tables.count("contacts") > 0;
     options.pockets |= tables.count("pockets") > 0;
     if (tables.count("pore") > 0 && call.atoms.pore.empty()) call.atoms.pore = "auto";
     options.ballAreas = std::any_of(tables.begin(), tables.end(), [](const std::string& table) {
         return table != "contacts" && table != "pockets" && table != "pore";
     });
-    if (tables.count("interfaces") == 0) return;
-    options.interfaces = true;
-    if (call.groupsFile.empty() && !call.atoms.groupBy && !call.colorGroups)
-        call.atoms.groupBy = GroupBy{GroupBy::Kind::Chain};
 }
 
 void completeGroups(Call& call)

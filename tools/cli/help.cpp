@@ -14,9 +14,10 @@ namespace
 {
 
 /// The options that --help shows: those that most calls have, and what people ask for first.
-constexpr const char* common[] = {"output", "folder", "formats", "force",   "select",  "assembly",
-                                  "hetero", "waters", "radii",   "probe",   "surface", "voxel",
-                                  "color",  "size",   "memory",  "dry-run", "bricks",  "threads"};
+constexpr const char* common[] = {"output",  "folder", "formats", "force",   "select", "assembly",
+                                  "hetero",  "waters", "radii",   "probe",   "frames", "surface",
+                                  "voxel",   "color",  "pockets", "pore",    "for",    "show",
+                                  "opacity", "size",   "memory",  "dry-run", "bricks", "threads"};
 
 bool isCommon(const Option& option)
 {
@@ -33,8 +34,21 @@ std::string nameOf(const VerbInfo& info)
     return info.verb == Build ? "" : std::string(info.name) + " ";
 }
 
+/// What comes first of a text, for the short help: up to the first semicolon, but for lists.
+std::string firstOf(const Option& option)
+{
+    const std::string name = option.name;
+    if (name == "output" || name == "select" || name == "surface" ||
+        option.text.find(';') == std::string::npos)
+        return textOf(option);
+    Option brief = option;
+    brief.text = wrapped(option.text.substr(0, option.text.find(';')), helpWidth);
+    return textOf(brief);
+}
+
 /// The lines of an option in a help text.
-std::string helpLine(const Option& option)
+/// @param[in] all  its whole text
+std::string helpLine(const Option& option, bool all = true)
 {
     std::string line = option.letter ? std::string("  -") + option.letter + ", --" : "      --";
     line += option.name;
@@ -42,7 +56,7 @@ std::string helpLine(const Option& option)
     const std::size_t column = 26;
     if (line.size() + 2 > column) line += "\n"; // a line of its own
     line.resize(line.back() == '\n' ? line.size() + column : column, ' ');
-    for (const char letter : textOf(option)) {
+    for (const char letter : all ? textOf(option) : firstOf(option)) {
         line += letter;
         if (letter == '\n') line.append(column, ' ');
     }
@@ -60,6 +74,22 @@ std::string statusOf(const VerbInfo& info)
     return joinWords(all, ", ") + ".";
 }
 
+std::string exampleLines(const std::vector<Example>& examples)
+{
+    std::string lines = examples.empty() ? "" : "\nExamples\n";
+    for (const Example& example : examples)
+        lines += std::string("  ") + example.command + "\n      " + example.text + "\n";
+    return lines;
+}
+
+/// Whether a word, of small letters, names a group: "pockets", "pocket", "colors".
+bool isTitle(const std::string& title, const std::string& word)
+{
+    const std::string name = lowered(title);
+    return word == name || word + "s" == name || word == name + "s" ||
+           (name == "colours" && (word == "colors" || word == "color"));
+}
+
 /// The verbs but the first one, a line each.
 std::string verbLines()
 {
@@ -73,7 +103,41 @@ std::string verbLines()
     return text;
 }
 
+/// The groups of options of a verb: "output, atoms, ...".
+std::string titles(Verb verb)
+{
+    std::vector<std::string> all;
+    for (const OptionGroup& group : optionGroups(verb)) all.push_back(lowered(group.title));
+    return joinWords(all, ", ");
+}
+
 } // namespace
+
+std::vector<std::string> topicWords()
+{
+    std::vector<std::string> words;
+    for (const OptionGroup& group : optionGroups(0xff)) {
+        words.push_back(lowered(group.title));
+        for (const Option& option : group.options) words.push_back(option.name);
+    }
+    return words;
+}
+
+std::string topicText(const std::string& word)
+{
+    std::string text;
+    for (const OptionGroup& group : optionGroups(0xff)) {
+        if (!isTitle(group.title, word)) continue;
+        text = std::string(group.title) + "\n";
+        for (const Option& option : group.options) text += helpLine(option);
+        return text + exampleLines(group.examples);
+    }
+    for (const OptionGroup& group : optionGroups(0xff))
+        for (const Option& option : group.options)
+            if (option.name == word || "--" + std::string(option.name) == word)
+                text += helpLine(option);
+    return text;
+}
 
 std::string overview(const std::string& first)
 {
@@ -84,8 +148,8 @@ std::string overview(const std::string& first)
     for (std::size_t at = 0; (at = text.find(",\n", at)) != std::string::npos; ++at)
         text.replace(at, 2, ",\n    ");
     return text +
-           "\nvdb_molsurf help VERB prints the common options of a verb, vdb_molsurf help options "
-           "all options.\n";
+           "\nvdb_molsurf help VERB prints the common options of a verb, vdb_molsurf help GROUP a "
+           "group\nof options with examples, vdb_molsurf help options all options.\n";
 }
 
 std::string helpText(Verb verb, bool all)
@@ -93,17 +157,20 @@ std::string helpText(Verb verb, bool all)
     const VerbInfo& info = infoOf(verb);
     std::string text = "vdb_molsurf " + nameOf(info) + info.synopsis + "\n\n" + info.text + "\n" +
                        info.more + "Lengths are in Å. Defaults are in brackets.\n";
-    for (const Example& example : info.examples)
-        text += std::string(&example == info.examples.data() ? "\nExamples\n" : "") + "  " +
-                example.command + "\n      " + example.text + "\n";
+    text += exampleLines(info.examples);
     if (verb == Build) text += verbLines();
+    if (!all) text += "\nCommon options\n";
     for (const OptionGroup& group : optionGroups(verb)) {
         std::string lines;
         for (const Option& option : group.options)
-            if (all || isCommon(option)) lines += helpLine(option);
-        if (!lines.empty()) text += std::string("\n") + group.title + "\n" + lines;
+            if (all || isCommon(option)) lines += helpLine(option, all);
+        if (!lines.empty() && all) text += std::string("\n") + group.title + "\n";
+        text += lines;
     }
-    if (!all) text += "\nAll options: vdb_molsurf " + nameOf(info) + "--help-all\n";
+    if (!all)
+        text += "\nAll options: vdb_molsurf " + nameOf(info) + "--help-all\n" +
+                wrapped("Groups of options: vdb_molsurf help GROUP, one of " + titles(verb), 88) +
+                "\n";
     return text + "\n" + wrapped("Exit status: " + statusOf(info), 88) + "\n";
 }
 

@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <limits>
 #include <stdexcept>
 
 namespace molsurf::tool
@@ -164,8 +166,15 @@ void setView(Call& call, const Values& values)
 {
     const std::string& view = values.back();
     if (takeView(view, call.picture)) return;
-    if (!(call.verb & (Build | Batch)))
-        wrongValue("view", "auto, a direction X,Y,Z or a FILE.view", view);
+    const std::string side = meaningOf(view, {{"front", "z"},
+                                              {"back", "-z"},
+                                              {"top above", "y"},
+                                              {"bottom below", "-y"},
+                                              {"right side", "x"},
+                                              {"left", "-x"}});
+    if (!(call.verb & (Build | Batch)) || !side.empty())
+        wrongValue("view", "auto, a direction X,Y,Z, an axis as z or a FILE.view", view,
+                   side.empty() ? "" : meant(side));
     call.viewed = view;
 }
 
@@ -187,6 +196,14 @@ template<typename Of>
 Option kept(const Of& of, Option option)
 {
     option.stored = [=](const Call& call) { return openvdb::BoolMetadata(of(call)).copy(); };
+    return option;
+}
+
+/// The option of a number that files have.
+template<typename Of>
+Option numberKept(const Of& of, Option option)
+{
+    option.stored = [=](const Call& call) { return openvdb::DoubleMetadata(of(call)).copy(); };
     return option;
 }
 
@@ -283,7 +300,24 @@ OptionGroup outputOptions()
          shown,
          number("range", "D", "distance at the end of the colours [Å]",
                 "that of 99 % of the vertices", Compare, 1e-300, 1e300, "a positive number of Å",
-                MOLSURF_OF(colorRange))}};
+                MOLSURF_OF(colorRange))},
+        {{"vdb_molsurf 1crn.pdb -o 1crn.vdb -o 1crn.ply -o 1crn.json",
+          "level set, mesh and report of one surface"},
+         {"vdb_molsurf 1crn.pdb -o - --format ply > 1crn.ply", "a mesh on standard output"}}};
+}
+
+Option superposeOption()
+{
+    Option superpose = text("superpose", "SEL",
+                            "lay B on A, structures of --panel on INPUT or frames on the\n"
+                            "first one, by these atoms where chain, number and name are\n"
+                            "the same, such as \"chain A and name CA\"; auto: by CA and C4'",
+                            Build | Compare, MOLSURF_OF(superpose));
+    superpose.words = {"auto"};
+    superpose.stored = [](const Call& c) {
+        return stored(c.superpose.empty() ? "none" : c.superpose);
+    };
+    return superpose;
 }
 
 OptionGroup atomOptions()
@@ -301,7 +335,10 @@ OptionGroup atomOptions()
          setting("no-hydrogens", structures), setting("ions", structures),
          setting("hetero", structures), setting("no-hetero", structures),
          setting("waters", structures), setting("radii", structures), setting("probe", structures),
-         setting("max-input", structures | Info)}};
+         superposeOption(), setting("max-input", structures | Info)},
+        {{"vdb_molsurf 4hhb.cif.gz --select \"chain A or within 5 of resn HEM\" -o part.ply",
+          "some of the atoms"},
+         {"vdb_molsurf 1a8o.cif.gz --assembly 1 -o dimer.ply", "the biological assembly"}}};
 }
 
 OptionGroup frameOptions()
@@ -331,7 +368,10 @@ OptionGroup frameOptions()
                           o.stored = [](const Call& c) {
                               return openvdb::DoubleMetadata(c.fps).copy();
                           };
-                      }))}};
+                      }))},
+        {{"vdb_molsurf 1d3z.pdb.gz --frames 1-4 -o 1d3z.ply", "a mesh for each of four models"},
+         {"vdb_molsurf top.pdb --trajectory run.xtc --frames all --superpose auto -o film.mp4",
+          "a film of a trajectory, each frame laid on the first"}}};
 }
 
 OptionGroup surfaceOptions()
@@ -369,7 +409,11 @@ OptionGroup surfaceOptions()
              fileOption("walls", Build), setting("remesh", wholes | Convert),
              setting("density", wholes | Convert), setting("adapt", wholes | Convert),
              setting("fields", surfaces), attributes, shownIn(Grids, setting("vdb-half", surfaces)),
-             shownIn(Numbers, setting("curvature-totals", wholes))}};
+             shownIn(Numbers, setting("curvature-totals", wholes))},
+            {{"vdb_molsurf 1crn.pdb --surface ses --voxel 0.25 -o 1crn.ply",
+              "the solvent-excluded surface, fine"},
+             {"vdb_molsurf 1crn.pdb --fields mean_curvature -o 1crn.vdb -o 1crn.ply",
+              "mean curvature as a grid and at vertices"}}};
 }
 
 OptionGroup resolutionOptions()
@@ -377,7 +421,10 @@ OptionGroup resolutionOptions()
     return {"Resolution",
             {setting("epsilon", structures), setting("match", structures),
              setting("resolution", structures), setting("coarse", structures),
-             setting("match-volume", wholes | Compare)}};
+             setting("match-volume", wholes | Compare)},
+            {{"vdb_molsurf 4at1.ent.gz --resolution 8 -o blurred.glb", "blurred to 8 Å"},
+             {"vdb_molsurf 4at1.ent.gz --coarse residue -o beads.glb",
+              "two beads in the place of each residue"}}};
 }
 
 /// The colours that convert can give, and their words in help texts.
@@ -395,6 +442,27 @@ Values storableColorHelp()
     return words;
 }
 
+OptionGroup colorOptions()
+{
+    const Option shown =
+        with(word("color", "WORD",
+                  wrapped(joinWords(storableColorHelp(), ", ") +
+                              "; chain and group are of grids chain_id and group_id, "
+                              "the others of Cd so coloured or of the mesh; those of "
+                              "Cd unless given",
+                          helpWidth),
+                  Convert, MOLSURF_OF(options.color), storableColors()),
+             [](Option& o) { o.preset = ""; });
+    return {"Colours",
+            {setting("color", surfaces), shown, setting("range", surfaces | Convert),
+             setting("palette", surfaces | Convert), setting("value-of", surfaces),
+             setting("flat-values", surfaces), setting("outward", surfaces),
+             fileOption("plain-color", wholes | Convert), fileOption("crisp", Build)},
+            {{"vdb_molsurf 4hhb.cif.gz --color chain -o chains.png", "a colour for each chain"},
+             {"vdb_molsurf 1ubq.pdb --color bfactor --range 0,40 -o b.glb",
+              "B factors from 0 to 40 Å^2"}}};
+}
+
 OptionGroup groupOptions()
 {
     const Option groups =
@@ -409,22 +477,13 @@ OptionGroup groupOptions()
                  };
                  o.file = wholeValue;
              });
-    const Option shown =
-        with(word("color", "WORD",
-                  wrapped(joinWords(storableColorHelp(), ", ") +
-                              "; chain and group are of grids chain_id and group_id, "
-                              "the others of Cd so coloured or of the mesh; those of "
-                              "Cd unless given",
-                          helpWidth),
-                  Convert, MOLSURF_OF(options.color), storableColors()),
-             [](Option& o) { o.preset = ""; });
     return {"Groups",
             {groups, setting("group-by", surfaces), setting("split", wholes),
-             setting("surface-of", wholes), setting("interfaces", wholes),
-             setting("color", surfaces), setting("range", surfaces | Convert),
-             setting("palette", surfaces | Convert), setting("value-of", surfaces),
-             setting("flat-values", surfaces), setting("outward", surfaces),
-             fileOption("crisp", Build), shown}};
+             setting("surface-of", wholes), setting("interfaces", wholes)},
+            {{"vdb_molsurf 4hhb.cif.gz --group-by chain --split group -o chains.glb",
+              "a surface for each chain"},
+             {"vdb_molsurf 4hhb.cif.gz --surface sas --interfaces -o buried.json",
+              "the area that each pair of chains buries"}}};
 }
 
 OptionGroup areaOptions()
@@ -449,7 +508,10 @@ OptionGroup areaOptions()
              word("contacts", "LEVEL",
                   "contact areas between atoms, residues or chains: atom,\nresidue, chain", wholes,
                   MOLSURF_OF(contacts),
-                  std::vector{ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain})}};
+                  std::vector{ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain})},
+            {{"vdb_molsurf 1ubq.pdb -o 1ubq.residues.csv", "accessible area of each residue"},
+             {"vdb_molsurf 4hhb.cif.gz -o 4hhb.contacts.csv --contacts chain",
+              "contact areas between chains"}}};
 }
 
 OptionGroup pocketOptions()
@@ -457,32 +519,72 @@ OptionGroup pocketOptions()
     return {"Pockets",
             {setting("pockets", wholes), setting("pocket-at", wholes), setting("probe-in", wholes),
              setting("probe-out", wholes), setting("pocket-cut", wholes),
-             setting("pocket-neck", wholes), setting("pore", wholes)}};
+             setting("pocket-neck", wholes)},
+            {{"vdb_molsurf 4hhb.cif.gz -o 4hhb.pockets.csv", "volume and mouths of each pocket"},
+             {"vdb_molsurf 4hhb.cif.gz --pocket-at \"resn HEM\" --color pocket -o site.png",
+              "a picture of the pockets around the haems"}}};
+}
+
+OptionGroup poreOptions()
+{
+    return {"Pores",
+            {setting("pore", wholes)},
+            {{"vdb_molsurf 1grm.pdb.gz --pore auto -o 1grm.pore.csv",
+              "radius and lining along the channel"},
+             {"vdb_molsurf 1grm.pdb.gz --pore auto --view x -o 1grm.png",
+              "a picture across the channel"}}};
 }
 
 OptionGroup sceneOptions()
 {
-    const auto numberOf = [](Option option, const auto& of) {
-        option.stored = [=](const Call& c) { return openvdb::DoubleMetadata(of(c)).copy(); };
-        return option;
-    };
     Option host = fileOption("for", wholes), center = fileOption("center", wholes);
     host.stored = [](const Call& c) { return stored(c.forApbs ? "apbs" : nameOf(c.scene.host)); };
     center.shownIn = 0; // pictures look the same
     return {
         "Scene",
-        {host, numberOf(fileOption("fog-density", wholes), MOLSURF_OF(scene.fogDensity)),
-         kept(MOLSURF_OF(center), center), fileOption("print-scale", wholes | Convert),
-         numberOf(number("min-wall", "W", "thicken what is thinner than W mm; with --print-scale",
-                         "", wholes, 1e-300, 1e300, "a positive number of mm", MOLSURF_OF(wall)),
-                  MOLSURF_OF(options.minWall))}};
+        {host, numberKept(MOLSURF_OF(scene.fogDensity), fileOption("fog-density", wholes)),
+         kept(MOLSURF_OF(center), center)},
+        {{"vdb_molsurf 1crn.pdb --for blender -o 1crn.vdb", "a volume with colours for Blender"},
+         {"vdb_molsurf 1crn.pdb --for usd --center -o 1crn.vdb", "a volume and its stage of USD"}}};
+}
+
+OptionGroup printOptions()
+{
+    return {"Print",
+            {fileOption("print-scale", wholes | Convert),
+             numberKept(MOLSURF_OF(options.minWall),
+                        number("min-wall", "W",
+                               "thicken what is thinner than W mm; with --print-scale", "", wholes,
+                               1e-300, 1e300, "a positive number of mm", MOLSURF_OF(wall)))},
+            {{"vdb_molsurf 1crn.pdb --print-scale 2 -o 1crn.3mf", "a print of 2 mm per Å"},
+             {"vdb_molsurf 1crn.pdb --print-scale 2 --min-wall 1 --walls outer -o 1crn.stl",
+              "no wall thinner than 1 mm, without cavities"}}};
 }
 
 OptionGroup solverOptions()
 {
     return {"Electrostatics",
             {ofFile(fileOption("apbs-grid", Build)), fileOption("pdie", Build),
-             fileOption("sdie", Build), fileOption("ion-conc", Build)}};
+             fileOption("sdie", Build), fileOption("ion-conc", Build)},
+            {{"vdb_molsurf molecule.pqr --for apbs -o run/", "input, charges and maps for APBS"},
+             {"vdb_molsurf molecule.pqr --match ses --for apbs --ion-conc 0.15 -o run/",
+              "the same with a smooth boundary, in 0.15 mol/L of salt"}}};
+}
+
+constexpr std::size_t fewPockets = 8; // that can be told apart
+
+/// How many pockets "pockets", "pockets=N" or "pockets=all" shows; 0: the text is none of these.
+std::size_t pocketsIn(const std::string& text)
+{
+    const std::string word = lowered(text), start = "pockets=";
+    if (word == "pockets") return fewPockets;
+    if (word.rfind(start, 0) != 0) return 0;
+    const std::string number = word.substr(start.size());
+    std::size_t count = 0;
+    if (number == "all") return std::numeric_limits<std::size_t>::max();
+    if (!parseWhole(number, count) || count == 0)
+        wrongValue("show", "pockets, pockets=N with N from 1, or pockets=all", text);
+    return count;
 }
 
 /// The words of styles and what they mean.
@@ -490,14 +592,17 @@ Option showOption()
 {
     Values all;
     for (const AtomStyle& row : atomStyles()) all.push_back(row.word + ": "s + row.help);
-    all.push_back("or pockets: their bodies, in pages too");
+    all.push_back("or pockets: the bodies of the " + std::to_string(fewPockets) +
+                  " largest, in pages too; pockets=N, pockets=all");
     Option show{
         "show",
         0,
         "[SEL=]WORD",
-        wrapped("atoms beside the surface, whole and opaque, such as \"(HEM)=sticks\"; repeats; " +
-                    joinWords(all, "; "),
-                helpWidth),
+        wrapped(
+            "atoms beside the surface, whole and opaque, such as \"(HEM)=sticks\", with carbon in "
+            "the colour of its chain, or sticks,golden; repeats; " +
+                joinWords(all, "; "),
+            helpWidth),
         "",
         Build | Batch};
     for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
@@ -505,10 +610,10 @@ Option showOption()
     show.repeats = true;
     show.set = [](Call& call, const Values& values) {
         for (const std::string& value : values)
-            if (lowered(value) == "pockets")
-                call.showsPockets = true;
+            if (const std::size_t count = pocketsIn(value))
+                call.shownPockets = count;
             else
-                call.shows.push_back(parseShow(value));
+                call.shows.push_back(parseShow(value, {"pockets"}));
     };
     return show;
 }
@@ -540,8 +645,15 @@ Option panelOption()
         for (const std::string& value : values) {
             const auto way = directionOf(value);
             if (value.empty() || (way && !(way->length() > 0.0 && std::isfinite(way->length()))))
-                wrongValue("panel", "a file or a direction X,Y,Z that is not 0", value);
+                wrongValue("panel",
+                           "a file or a direction X,Y,Z that is not 0, or a kind of surface",
+                           value);
             const auto kind = surfaceKindOf(value);
+            std::error_code ignored;
+            const std::string hint =
+                way || kind || std::filesystem::exists(value, ignored) ? "" : kindMeant(value);
+            if (!hint.empty())
+                wrongValue("panel", "a file, a direction or a kind of surface", value, hint);
             call.panels.push_back(way    ? Panel{"", *way}
                                   : kind ? Panel{"", openvdb::Vec3d(0.0), kind}
                                          : Panel{value});
@@ -589,29 +701,35 @@ OptionGroup pictureOptions()
     };
     return {"Picture",
             {view, fileOption("up", draw), fileOption("turn", draw), fileOption("size", draw),
-             fileOption("background", draw), fileOption("plain-color", wholes | Convert),
-             fileOption("style", draw), shownIn(Pixels | ColorChoices, showOption()), labelOption(),
-             rulerOption(), panelOption(), fileOption("opacity", draw),
-             fileOption("all-walls", draw), fileOption("clip", draw), fileOption("depth-cue", draw),
-             fileOption("legend", draw), fileOption("scale-bar", draw), fileOption("dpi", draw),
+             fileOption("background", draw), fileOption("style", draw),
+             shownIn(Pixels | ColorChoices, showOption()), labelOption(), rulerOption(),
+             panelOption(), fileOption("opacity", draw), fileOption("all-walls", draw),
+             fileOption("clip", draw), fileOption("depth-cue", draw), fileOption("legend", draw),
+             fileOption("scale-bar", draw), fileOption("dpi", draw),
              shownIn(Pixels, count("turntable", "N",
                                    "N pictures round the upright: name.0001.png, ..., or in\na "
                                    "film, such as name.mp4",
-                                   "", draw, 2, 9999, MOLSURF_OF(turntable)))}};
+                                   "", draw, 2, 9999, MOLSURF_OF(turntable)))},
+            {{"vdb_molsurf 4hhb.cif.gz --color chain --show \"resn HEM=sticks\" --opacity 0.5 "
+              "-o haems.png",
+              "ligands behind a translucent surface"},
+             {"vdb_molsurf 1crn.pdb --turntable 36 -o turn.gif", "a film of one turn"}}};
 }
 
 OptionGroup flowOptions()
 {
-    return {"Evolution",
-            {setting("lambda", structures), setting("regularizer", structures),
-             setting("flow", structures), setting("max-steps", structures & ~BricksPlan),
-             with(setting("steps", structures),
-                  [](Option& o) {
-                      o.preset = std::to_string(BrickPlan::defaultSteps) + " in bricks, " +
-                                 std::to_string(BrickPlan::defaultFrontSteps) +
-                                 " at a large lambda";
-                  }),
-             setting("tolerance", structures), setting("spline-level", wholes | Compare)}};
+    return {
+        "Evolution",
+        {setting("lambda", structures), setting("regularizer", structures),
+         setting("flow", structures), setting("max-steps", structures & ~BricksPlan),
+         with(setting("steps", structures),
+              [](Option& o) {
+                  o.preset = std::to_string(BrickPlan::defaultSteps) + " in bricks, " +
+                             std::to_string(BrickPlan::defaultFrontSteps) + " at a large lambda";
+              }),
+         setting("tolerance", structures), setting("spline-level", wholes | Compare)},
+        {{"vdb_molsurf 1crn.pdb --lambda 0.01 -o 1crn.ply", "less tension: closer to the atoms"},
+         {"vdb_molsurf 1crn.pdb --flow newton -v -o 1crn.json", "explicit steps"}}};
 }
 
 Option requireOption()
@@ -630,10 +748,27 @@ Option requireOption()
         if (!parsed)
             wrongValue("require",
                        "some of " + joinWords(requirementWords(), ", ") + " with numbers",
-                       values.back());
+                       values.back(),
+                       didYouMean(values.back(), requirementWords(),
+                                  {{"closed watertightness", "watertight"},
+                                   {"connected one-piece", "components=1"}}));
         call.required = *parsed;
     };
     return required;
+}
+
+Option threadsOption()
+{
+    Option threads{"threads", 'j', "N", "threads at most", "all", runs};
+    threads.set = [set = countSetter("threads", 1, 4096, MOLSURF_OF(threads))](
+                      Call& call, const Values& values) {
+        const std::string word = lowered(values.back());
+        if (word == "0" || word == "-1" || word == "all" || word == "auto" || word == "max")
+            wrongValue("threads", "a whole number from 1 to 4096", values.back(),
+                       " [hint: all cores are used without `threads`]");
+        set(call, values);
+    };
+    return threads;
 }
 
 OptionGroup runOptions()
@@ -642,6 +777,10 @@ OptionGroup runOptions()
         Option o{"memory", 0, "SIZE", std::move(text), "", verbs};
         o.set = [](Call& call, const Values& values) {
             call.memory = sizeValue("memory", values.back());
+            constexpr std::size_t least = 1024; // a number without its unit
+            if (call.memory < least)
+                wrongValue("memory", "a size such as 500M or 4G", values.back(),
+                           meant(values.back() + "G"));
         };
         return o;
     };
@@ -662,17 +801,18 @@ OptionGroup runOptions()
          number("max-hours", "H", "refuse what is estimated to take more hours", "24",
                 Build | Batch | Compare | Convert | BricksRun, 1e-6, 1e6, "hours, from 1e-6 to 1e6",
                 MOLSURF_OF(hours)),
-         flagOf("dry-run", 0, "say what it takes, and stop", Build | Compare | Convert,
-                MOLSURF_OF(dryRun)),
-         requireOption(),
-         with(count("threads", "N", "threads at most", "all", runs, 1, 4096, MOLSURF_OF(threads)),
-              [](Option& o) { o.letter = 'j'; }),
+         flagOf("dry-run", 0, "print the estimated time and memory, and stop",
+                Build | Compare | Convert, MOLSURF_OF(dryRun)),
+         requireOption(), threadsOption(),
          flagOf("quiet", 'q', "print errors only", runs, MOLSURF_OF(quiet)),
          flagOf("verbose", 'v', "print the time of every stage",
                 Build | Batch | Compare | Convert | BricksMerge, MOLSURF_OF(verbose)),
          flagOf("no-progress", 0, "no progress bar", runs, MOLSURF_OF(progress), false),
          ofFile(text("config", "FILE", "options as lines \"name = value\"; the command line wins",
-                     structures | Convert, MOLSURF_OF(config)))}};
+                     structures | Convert, MOLSURF_OF(config)))},
+        {{"vdb_molsurf 4v5a.cif.gz --dry-run -o 4v5a.ply", "estimated time and memory"},
+         {"vdb_molsurf 4v5a.cif.gz --memory 4G -j 8 -o 4v5a.ply",
+          "at most 4 GiB and eight threads"}}};
 }
 
 } // namespace
@@ -693,9 +833,10 @@ bool Call::writesOnly(unsigned some) const
 const std::vector<OptionGroup>& optionTable()
 {
     static const std::vector<OptionGroup> all = {
-        outputOptions(),  atomOptions(), frameOptions(),  surfaceOptions(), resolutionOptions(),
-        groupOptions(),   areaOptions(), pocketOptions(), sceneOptions(),   solverOptions(),
-        pictureOptions(), flowOptions(), runOptions()};
+        outputOptions(),     atomOptions(),    frameOptions(), surfaceOptions(),
+        resolutionOptions(), groupOptions(),   colorOptions(), areaOptions(),
+        pocketOptions(),     poreOptions(),    sceneOptions(), printOptions(),
+        solverOptions(),     pictureOptions(), flowOptions(),  runOptions()};
     return all;
 }
 

@@ -40,10 +40,17 @@ struct Option {
     unsigned shownIn = 0;
 };
 
+/// A command line that people can take as it is printed, and what it makes.
+struct Example {
+    const char* command;
+    const char* text;
+};
+
 /// Options under a title.
 struct OptionGroup {
     const char* title;
     std::vector<Option> options;
+    std::vector<Example> examples = {};
 };
 
 /// The whole table.

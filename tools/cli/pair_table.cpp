@@ -87,7 +87,6 @@ std::vector<Pair> assemblyPairs()
         coloured("color=class", " [hint: --group-by class --color group]"),
         ofGroups("split"),
         ofGroups("surface-of"),
-        ofGroups("interfaces"),
         ofGroups("color=group")};
 }
 
@@ -207,6 +206,20 @@ std::vector<Pair> surfacePairs()
         {"crisp", IsFor, {}, "one surface, without --split and --surface-of", [](const Call& call) {
              return !call.options.ofParts();
          }}};
+}
+
+/// Rows of structures that are laid on others.
+std::vector<Pair> superposePairs()
+{
+    return {{"superpose",
+             Needs,
+             {"frames", "trajectory", "panel"},
+             " [hint: vdb_molsurf compare A B --superpose auto]",
+             [](const Call& call) { return call.verb == Compare; }},
+            {"superpose",
+             Excludes,
+             {"color=potential"},
+             ": the map stays where it is [hint: another --color]"}};
 }
 
 /// Rows of frames, files and the run.
@@ -336,8 +349,8 @@ const std::vector<Pair>& pairTable()
 {
     static const std::vector<Pair> all = [] {
         std::vector<Pair> rows;
-        for (auto* more :
-             {runPairs, assemblyPairs, areaPairs, meshPairs, pocketPairs, surfacePairs})
+        for (auto* more : {runPairs, superposePairs, assemblyPairs, areaPairs, meshPairs,
+                           pocketPairs, surfacePairs})
             for (Pair& row : more()) rows.push_back(std::move(row));
         return rows;
     }();

@@ -4,6 +4,7 @@
 #include "cli/complete.h"
 #include "cli/option_table.h"
 #include "cli/pair_table.h"
+#include "cli/suggest.h"
 #include "cli/verb_table.h"
 
 #include "molsurf/error.h"
@@ -120,6 +121,35 @@ Verb takeVerb(std::vector<std::string>& words)
     return Build;
 }
 
+/// Refuses an option without its value.
+[[noreturn]] void missingValue(const Option& option)
+{
+    misuse("--" + std::string(option.name) + ": expected a value, got none [hint: for example " +
+           exampleOf(option) + "]");
+}
+
+/// A hint on an option that a verb does not have: its name as the program has it, what another
+/// program's option is here, the name that it begins with, or the nearest one.
+std::string hintOf(Verb verb, const std::string& name, const std::vector<std::string>& known)
+{
+    std::string plain = lowered(name);
+    std::replace(plain.begin(), plain.end(), '_', '-');
+    const auto isKnown = [&](const std::string& word) {
+        return std::count(known.begin(), known.end(), "--" + word) > 0;
+    };
+    if (isKnown(plain)) return meant("--" + plain);
+    const std::string other = meantByOption(plain);
+    if (other.size() < 3 || other[1] != '-' || isKnown(other.substr(2, other.find(' ') - 2)))
+        if (!other.empty()) return meant(other);
+    for (std::size_t end = plain.rfind('-'); end != std::string::npos && end > 0;
+         end = plain.rfind('-', end - 1))
+        if (isKnown(plain.substr(0, end))) return meant("--" + plain.substr(0, end));
+    const std::string near = didYouMean("--" + plain, known);
+    if (!near.empty()) return near;
+    return std::string(" [hint: vdb_molsurf ") +
+           (verb == Build ? "" : std::string(infoOf(verb).name) + " ") + "--help]";
+}
+
 /// Refuses an option that a verb does not have.
 [[noreturn]] void refuse(Verb verb, const std::string& typed)
 {
@@ -129,23 +159,32 @@ Verb takeVerb(std::vector<std::string>& words)
     for (const OptionGroup& group : optionTable()) {
         for (const Option& option : group.options) {
             if (option.verbs & verb) known.push_back("--" + std::string(option.name));
-            if (option.name != name) continue;
+            if (option.name != name && name != std::string(1, option.letter)) continue;
             for (const VerbInfo& info : verbTable())
                 if (option.verbs & info.verb) others.push_back(info.name);
         }
     }
-    if (!others.empty())
-        misuse("--" + name + " is for " + joinWords(others, ", ") + ", not for " +
-               infoOf(verb).name);
-    // "-version": one hyphen too few.
-    const bool exact = std::count(known.begin(), known.end(), "--" + name) > 0;
-    const std::string hint =
-        exact ? " [hint: did you mean --" + name + "?]" : didYouMean("--" + name, known);
-    misuse("unknown option '" + typed + "'" +
-           (hint.empty()
-                ? std::string(" [hint: vdb_molsurf ") +
-                      (verb == Build ? "" : std::string(infoOf(verb).name) + " ") + "--help]"
-                : hint));
+    if (!others.empty()) {
+        const bool file = name == "o" || name == "output";
+        misuse(typed + " is for " + joinWords(others, ", ") + ", not for " + infoOf(verb).name +
+               (file && findOption(verb, "folder") ? meant("-O") : ""));
+    }
+    misuse("unknown option '" + typed + "'" + hintOf(verb, name, known));
+}
+
+/// Refuses an option without a value, or a switch with one.
+[[noreturn]] void refuseValue(Verb verb, const po::error_with_option_name& error)
+{
+    const std::string typed = error.get_option_name();
+    const std::string name = typed.substr(std::min(typed.find_first_not_of('-'), typed.size()));
+    for (const OptionGroup& group : optionTable())
+        for (const Option& option : group.options) {
+            const bool letter = option.letter && name == std::string(1, option.letter);
+            if (!(option.verbs & verb) || (option.name != name && !letter)) continue;
+            if (option.value) missingValue(option);
+            misuse("--" + std::string(option.name) + ": it is a switch and takes no value");
+        }
+    misuse(error.what());
 }
 
 /// Whether a switch is on, by its value in a file of options.
@@ -179,8 +218,7 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
         if (known && known->value && !known->repeats && !values.empty())
             misuse("--" + name + " is given twice");
         if (known && known->value) {
-            if (option.value.empty() || option.value[0].empty())
-                misuse("--" + name + ": expected a value, got none");
+            if (option.value.empty() || option.value[0].empty()) missingValue(*known);
             values.insert(values.end(), option.value.begin(), option.value.end());
         }
     }
@@ -211,6 +249,28 @@ void readConfig(const std::string& path, const po::options_description& all, Cal
     } catch (const Error& e) {
         throw Error(e, "--config " + path + ": " + e.what());
     }
+}
+
+/// The text of "help WORDS": verbs, a verb, a group of options or an option.
+std::string helpOn(std::vector<std::string> words)
+{
+    if (words.empty()) return overview();
+    const std::string first = lowered(words[0]);
+    const std::vector<std::string> known = verbs();
+    if (std::count(known.begin(), known.end(), first) == 0) {
+        if (words.size() > 1) misuse("help: expected one word, got '" + words[1] + "' too");
+        if (first == "options") return helpText(Build, true);
+        const std::string text = topicText(first);
+        if (!text.empty()) return text;
+        std::vector<std::string> topics = topicWords();
+        topics.insert(topics.end(), known.begin(), known.end());
+        misuse("help: expected a verb, a group of options or an option, got '" + words[0] + "'" +
+               didYouMean(words[0], topics));
+    }
+    if (asksForVerbs(words, true)) return overview(first);
+    const Verb verb = takeVerb(words);
+    if (!words.empty()) misuse("help: expected one verb, got '" + words[0] + "' too");
+    return helpText(verb, false);
 }
 
 /// A word as a shell takes it.
@@ -253,13 +313,7 @@ Parsed parse(int argc, const char* const* argv)
     }
     if (!words.empty() && lowered(words[0]) == "help") {
         words.erase(words.begin());
-        if (words.empty()) return {{}, overview()};
-        if (lowered(words[0]) == "options" && words.size() == 1) return {{}, helpText(Build, true)};
-        if (asksForVerbs(words, true)) return {{}, overview(lowered(words[0]))};
-        const Verb verb = takeVerb(words);
-        if (!words.empty())
-            misuse("help: expected a verb, got '" + words[0] + "'" + didYouMean(words[0], verbs()));
-        return {{}, helpText(verb, false)};
+        return {{}, helpOn(std::move(words))};
     }
     if (asksForVerbs(words, false)) return {{}, overview(lowered(words[0]))};
     call.verb = takeVerb(words);
@@ -275,8 +329,10 @@ Parsed parse(int argc, const char* const* argv)
             call.given, call.inputs);
     } catch (const po::unknown_option& e) {
         refuse(call.verb, e.get_option_name());
+    } catch (const po::error_with_option_name& e) {
+        refuseValue(call.verb, e);
     } catch (const po::error& e) {
-        misuse(std::string(e.what()) + " [hint: vdb_molsurf --help]");
+        misuse(e.what());
     }
     if (call.has("help-all")) return {{}, helpText(call.verb, true)};
     if (call.has("help")) return {{}, helpText(call.verb, false)};

@@ -34,6 +34,13 @@ std::string overview(const std::string& first = "");
 /// The text of --help for a verb: its common options, or that of --help-all.
 std::string helpText(Verb verb, bool all);
 
+/// The options of a group, or one option, with examples; empty if the word names neither.
+/// @param[in] word  of small letters: "pockets", "voxel"
+std::string topicText(const std::string& word);
+
+/// The words of topicText(): titles of groups and names of options.
+std::vector<std::string> topicWords();
+
 /// The manual page, for man.
 std::string manPage();
 

@@ -29,8 +29,8 @@ VerbInfo buildVerb()
         "INPUT -o FILE [-o FILE ...] [options]",
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .bcif .gro\n"
         ".psf .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz, or -\n"
-        "for standard input): a level set as OpenVDB grid, meshes, pictures, a report. With\n"
-        "--frames one a frame.",
+        "for standard input): a level set as OpenVDB grid, meshes, pictures, a report.\n"
+        "With --frames, one output per frame.",
         "",
         checkedStatus,
         {{"vdb_molsurf 1crn.pdb -o 1crn.vdb -o 1crn.ply",
@@ -57,7 +57,7 @@ VerbInfo batchVerb()
         "A failed structure is reported; the others continue. DIR/summary.csv and summary.json\n"
         "have a line each; the same command once more makes those that are missing, failed or\n"
         "of an input that has changed. Several lists may share DIR, also at the same time.\n"
-        "The exit status is 1 if some failed, or 75 if one of these may go well later.\n",
+        "The exit status is 1 if some failed, or 75 if it helps to try one of these again later.\n",
         "some did not converge (their files are written)",
         {{"vdb_molsurf batch structures/ -O surfaces --surface sas --formats json",
           "a report for each structure of a folder, and a table of all"}},

@@ -4,19 +4,13 @@
 /// @file
 /// Every verb of the program, a row each.
 
-#include "cli/call.h"
+#include "cli/option_table.h"
 
 #include <chrono>
 #include <vector>
 
 namespace molsurf::tool
 {
-
-/// A command line that people can take as it is printed, and what it makes.
-struct Example {
-    const char* command;
-    const char* text;
-};
 
 /// One verb.
 struct VerbInfo {

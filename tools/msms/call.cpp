@@ -61,7 +61,7 @@ const char* const about =
     "-all. Defaults are in brackets. With --dry-run it says what it takes, and stops.\n";
 const char* const statuses =
     "Exit status: 0 done, 1 failed, 2 wrong usage, 3 a result failed its own "
-    "checks, 75 failed, and may go well later, 130 interrupted.";
+    "checks, 75 failed; try again later, 130 interrupted.";
 const char* const noServer = "expected a file by -if, this program is no server";
 
 /// The options of MSMS, in its order.

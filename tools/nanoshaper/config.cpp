@@ -166,7 +166,7 @@ const char* const about =
     "not know are passed over, with a line that says so. Defaults are in brackets.\n";
 const char* const statuses = "Exit status: 0 done, 1 failed or asked for what this program does "
                              "not make, 2 wrong usage, 3 a "
-                             "result failed its own checks, 75 failed, and may go well later, 130 "
+                             "result failed its own checks, 75 failed; try again later, 130 "
                              "interrupted.";
 
 } // namespace

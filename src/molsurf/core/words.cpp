@@ -128,7 +128,27 @@ std::string didYouMean(const std::string& typed, const std::vector<std::string>&
             best = word;
         }
     }
-    return best.empty() ? "" : " [hint: did you mean " + best + "?]";
+    return best.empty() ? "" : meant(best);
+}
+
+std::string meant(const std::string& words)
+{
+    return " [hint: did you mean " + words + "?]";
+}
+
+std::string meaningOf(const std::string& typed, const std::vector<Synonyms>& known)
+{
+    const std::string word = ' ' + lowered(typed) + ' ';
+    for (const Synonyms& row : known)
+        if ((' ' + std::string(row.words) + ' ').find(word) != std::string::npos) return row.meant;
+    return "";
+}
+
+std::string didYouMean(const std::string& typed, const std::vector<std::string>& words,
+                       const std::vector<Synonyms>& known)
+{
+    const std::string meaning = meaningOf(typed, known);
+    return meaning.empty() ? didYouMean(typed, words) : meant(meaning);
 }
 
 bool isModestJson(std::string_view text)

@@ -58,7 +58,23 @@ std::string sizeText(double bytes);
 /// Text by a form as of printf().
 __attribute__((format(printf, 1, 2))) std::string formatted(const char* form, ...);
 
-/// " [hint: did you mean WORD?]" for the word nearest to what was typed; empty if none is near.
+/// " [hint: did you mean WORDS?]".
+std::string meant(const std::string& words);
+
+/// meant() for the word nearest to what was typed; empty if none is near.
 std::string didYouMean(const std::string& typed, const std::vector<std::string>& words);
+
+/// Words of other programs, with blanks between, and what is meant by them here.
+struct Synonyms {
+    const char* words;
+    const char* meant;
+};
+
+/// What is meant by a word of another program; empty: it is not known.
+std::string meaningOf(const std::string& typed, const std::vector<Synonyms>& known);
+
+/// As above; what is meant by a word of another program comes before the nearest word.
+std::string didYouMean(const std::string& typed, const std::vector<std::string>& words,
+                       const std::vector<Synonyms>& known);
 
 } // namespace molsurf

@@ -53,6 +53,19 @@ Json oneWayJson(const Comparison::OneWay& way)
             {"samples", way.samples}};
 }
 
+/// The motion of B: its matrix acts on columns (x, y, z, 1) [Å].
+Json motionJson(const std::optional<Superposition>& motion)
+{
+    if (!motion) return {};
+    Json matrix = Json::array();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const openvdb::Vec3d& row = motion->rows[i];
+        matrix.push_back({row[0], row[1], row[2], motion->shift[int(i)]});
+    }
+    matrix.push_back({0.0, 0.0, 0.0, 1.0});
+    return {{"atoms", motion->pairs}, {"rmsd", motion->rmsd}, {"matrix", std::move(matrix)}};
+}
+
 Json colorJson(const ComparisonReport& report)
 {
     const ColorScale& color = report.color;
@@ -102,6 +115,7 @@ std::string comparisonText(const ComparisonReport& report)
         {"a_to_b", oneWayJson(report.distances.aToB)},
         {"b_to_a", oneWayJson(report.distances.bToA)},
         {"hausdorff", report.distances.hausdorff},
+        {"superposition", motionJson(report.superposition)},
         {"area_ratio", orNull(ratio(report.a.area, report.b.area))},
         {"volume_ratio", orNull(ratio(report.a.volume, report.b.volume))},
         {"color", colorJson(report)},

@@ -6,6 +6,7 @@
 
 #include "molsurf/color/color_map.h"
 #include "molsurf/color/legend.h"
+#include "molsurf/core/superposition.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
 
@@ -38,6 +39,7 @@ struct ComparisonReport {
     std::string command;
     ComparedFile a, b;
     Comparison distances;
+    std::optional<Superposition> superposition{}; ///< that laid B on A
     std::string shown; ///< quantity that the colours show: "distance" or "signed_distance"
     ColorScale color;
     std::vector<std::pair<std::string, double>> seconds; ///< stage, wall seconds; "total" last

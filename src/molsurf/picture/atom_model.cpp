@@ -192,14 +192,24 @@ std::vector<Bond> bondsOf(const ShownAtoms& shown)
     return bonds;
 }
 
-/// Elements by their colours, but carbon, which is to be told from a grey surface.
-std::vector<Color> atomColors(const BallSet& atoms, const Progress& progress, AtomModel& model)
+/// Elements by their colours, but carbon: it has the colour of its chain, or one that differs from
+/// a grey surface.
+std::vector<Color> atomColors(const ShownAtoms& shown, const Progress& progress, AtomModel& model)
 {
+    const BallSet& atoms = shown.atoms;
+    const BallLabels& labels = *atoms.labels;
     std::vector<Color> colors = ballColors(atoms, ColorBy::Element, progress);
-    for (std::size_t i = 0; i < colors.size(); ++i)
-        if (atoms.labels->elementOf[i] == carbonElement) colors[i] = carbonColor;
-    for (std::size_t i = 0; i < colors.size(); ++i)
-        addEntry({elementSymbol(atoms.labels->elementOf[i]), colors[i]}, model.elements);
+    const std::vector<Color> ofChains =
+        shown.byChain ? chainColors(atoms, progress) : std::vector<Color>();
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const bool carbon = labels.elementOf[i] == carbonElement;
+        const auto chain = std::size_t(labels.chainOf[i]);
+        if (carbon) colors[i] = shown.byChain ? ofChains[chain] : carbonColor;
+        if (carbon && shown.byChain)
+            addEntry({labels.chains[chain], colors[i]}, model.chains);
+        else
+            addEntry({elementSymbol(labels.elementOf[i]), colors[i]}, model.elements);
+    }
     return colors;
 }
 
@@ -217,7 +227,7 @@ void addBonded(const ShownAtoms& shown, const Progress& progress, double stick,
                double (*sizeOf)(const Ball&), AtomModel& model)
 {
     const BallSet& atoms = shown.atoms;
-    const std::vector<Color> colors = atomColors(atoms, progress, model);
+    const std::vector<Color> colors = atomColors(shown, progress, model);
     for (std::size_t i = 0; i < atoms.balls.size(); ++i)
         addBall(atoms.balls[i].center, sizeOf(atoms.balls[i]), colors[i], model);
     for (const auto& [i, j, order] : bondsOf(shown))
@@ -283,7 +293,7 @@ void addOrders(const ShownAtoms& shown, const Progress& progress, AtomModel& mod
     constexpr double joint = 0.28, single = 0.12, thin = 0.08, dash = 0.06, apart = 0.16,
                      wide = 0.19, inside = 0.36;
     const BallSet& atoms = shown.atoms;
-    const std::vector<Color> colors = atomColors(atoms, progress, model);
+    const std::vector<Color> colors = atomColors(shown, progress, model);
     for (std::size_t i = 0; i < atoms.balls.size(); ++i)
         addBall(atoms.balls[i].center, joint, colors[i], model);
     const std::vector<Bond> bonds = bondsOf(shown);
@@ -315,7 +325,7 @@ void addOrders(const ShownAtoms& shown, const Progress& progress, AtomModel& mod
 void addSpheres(const ShownAtoms& shown, const Progress& progress, AtomModel& model)
 {
     const BallSet& atoms = shown.atoms;
-    const std::vector<Color> colors = atomColors(atoms, progress, model);
+    const std::vector<Color> colors = atomColors(shown, progress, model);
     for (std::size_t i = 0; i < atoms.balls.size(); ++i)
         addBall(atoms.balls[i].center, atoms.balls[i].radius, colors[i], model);
 }
@@ -458,12 +468,40 @@ const std::vector<AtomStyle>& atomStyles()
     return all;
 }
 
-ShowRule parseShow(const std::string& text)
+namespace
+{
+
+using Values = std::vector<std::string>;
+
+/// A hint on what stands in the place of a style: a word of another program, a slip, or a selection
+/// without a style.
+/// @param[in] others  words that are no styles, and are taken, too
+std::string styleMeant(const std::string& text, const std::string& word, const Values& others,
+                       Values words)
+{
+    words.insert(words.end(), others.begin(), others.end());
+    const std::string near = didYouMean(word, words,
+                                        {{"cartoon ribbon ribbons backbone trace ca", "tube"},
+                                         {"line lines licorice wire bonds stick", "sticks"},
+                                         {"cpk vdw spacefill sphere", "spheres"},
+                                         {"ball-and-stick ball+stick ballandstick", "balls"}});
+    const bool bare = near.empty() && text.find('=') == std::string::npos &&
+                      text.find_first_of(" /()") != std::string::npos; // a selection
+    return bare ? " [hint: `show` " + inQuotes(text + "=sticks") + "]" : near;
+}
+
+} // namespace
+
+ShowRule parseShow(const std::string& text, const std::vector<std::string>& others)
 {
     const std::size_t equals = text.rfind('=');
     const bool named = equals != std::string::npos;
     ShowRule rule{named ? text.substr(0, equals) : "", nullptr};
-    const std::string word = lowered(named ? text.substr(equals + 1) : text);
+    std::string word = lowered(named ? text.substr(equals + 1) : text);
+    constexpr std::string_view golden = ",golden";
+    rule.golden = word.size() > golden.size() &&
+                  word.compare(word.size() - golden.size(), golden.size(), golden) == 0;
+    if (rule.golden) word.resize(word.size() - golden.size());
     std::vector<std::string> words;
     for (const AtomStyle& style : atomStyles()) {
         if (word == style.word) rule.style = &style;
@@ -472,7 +510,7 @@ ShowRule parseShow(const std::string& text)
     if (!rule.style || (named && rule.select.empty()))
         throw Error(ErrorKind::Usage, "`show`: expected " + joinWords(words, ", ") +
                                           ", or SELECTION= and one of them, got " + inQuotes(text) +
-                                          didYouMean(word, words));
+                                          styleMeant(text, word, named ? Values() : others, words));
     return rule;
 }
 
@@ -504,24 +542,20 @@ AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progre
 
 void addBodies(const Mesh& bodies, AtomModel& model)
 {
-    Mesh& mesh = model.mesh;
-    std::size_t place = mesh.triangles.empty() ? 0 : partRanges(mesh, "").size();
-    for (const PartRange& part : partRanges(bodies, "")) {
-        const auto shift = std::uint32_t(mesh.positions.size() - part.firstVertex);
-        mesh.parts.push_back({part.name, mesh.triangles.size()});
-        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
-            mesh.positions.push_back(bodies.positions[v]);
-            mesh.normals.push_back(bodies.normals[v]);
-            mesh.colors.push_back(bodies.colors[v]);
-        }
-        for (std::size_t t = part.firstTriangle; t < part.triangleEnd; ++t) {
-            const auto& corners = bodies.triangles[t];
-            mesh.triangles.push_back({corners[0] + shift, corners[1] + shift, corners[2] + shift});
-        }
-        model.instances.push_back(
-            {place++, part.name, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, Vec3d(0.0), white});
+    const bool throughLight = !model.instances.empty();
+    for (const PartRange& part : partRanges(bodies, ""))
         model.pockets.push_back({part.name, bodies.colors[part.firstVertex]});
+    if (throughLight) {
+        model.bodies = bodies;
+        return;
     }
+    model.mesh = bodies;
+    for (std::size_t place = 0; place < model.pockets.size(); ++place)
+        model.instances.push_back({place,
+                                   model.pockets[place].name,
+                                   {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                                   Vec3d(0.0),
+                                   white});
 }
 
 } // namespace molsurf

@@ -26,6 +26,7 @@ constexpr double outlinePixels = 8;   // least jump in depth that gets an outlin
 constexpr double outlineLength = 2;   // and in Å
 constexpr float creaseCosine = 0.6f;  // of the normals at a crease, at most
 constexpr int mostLayers = 12;        // of things that let light through
+constexpr float bodyOpacity = 0.2f;   // of one wall of a body, seen from the front
 constexpr float inkLight = 0.004f;    // of black lines
 constexpr float faint = 1e-3f;        // share of light that is not followed any more
 
@@ -120,9 +121,10 @@ private:
     float opacityOf(const Seen& seen) const
     {
         const bool solid = options_.glass && seen.color != *options_.glass;
-        if (options_.opacity >= 1.0 || seen.opaque() || solid) return 1.0f;
+        const float opacity = seen.ofBody() ? bodyOpacity : float(options_.opacity);
+        if (opacity >= 1.0f || seen.opaque() || (solid && !seen.ofBody())) return 1.0f;
         const float facing = std::max(seen.normal()[2], 0.05f);
-        return 1.0f - std::pow(1.0f - float(options_.opacity), 1.0f / facing);
+        return 1.0f - std::pow(1.0f - opacity, 1.0f / facing);
     }
 
     /// The light of a sample: sky, lamp and a fill light by Lambert's law, a highlight of the lamp
@@ -261,8 +263,10 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     const PictureStyle& style = options.style ? *options.style : styleTable().front();
     std::vector<Light> lights;
     {
-        const bool through = options.opacity < 1.0 && (options.allWalls || options.model);
-        const int layers = !through ? 1 : options.allWalls ? mostLayers : 2;
+        const bool bodies = options.model && !options.model->bodies.triangles.empty();
+        const bool behind = options.opacity < 1.0 && (options.allWalls || options.model);
+        const bool many = bodies || (options.opacity < 1.0 && options.allWalls);
+        const int layers = many ? mostLayers : behind ? 2 : 1;
         std::optional<Tracer> tracer(std::in_place, mesh, view, style, options);
         const Painter painter(view, style, options);
         Layer layer = tracer->first(progress);

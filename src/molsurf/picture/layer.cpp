@@ -106,6 +106,9 @@ Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
 {
     for (auto& owner : owners_) owner.store(unknown, std::memory_order_relaxed);
     if (options.model) atoms_.emplace(options.model->mesh, options.model->instances);
+    static const std::vector<MeshInstance> asTheyAre;
+    if (options.model && !options.model->bodies.triangles.empty())
+        bodies_.emplace(options.model->bodies, asTheyAre);
 }
 
 Layer Tracer::first(const Progress& progress) const
@@ -183,16 +186,24 @@ void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) cons
     for (std::size_t first = 0; first < samples.size(); first += packet) {
         const std::array<int, 2>* at = samples.data() + first;
         const std::size_t count = std::min(packet, samples.size() - first);
-        std::array<float, packet> depths;
+        std::array<float, packet> depths, wallDepths; // where rays begin, and those to the surface
+        std::array<std::uint8_t, packet> bodyPiece;   // of a body that a ray meets
         depths.fill(Seen::nothing);
+        bodyPiece.fill(Seen::body);
         for (std::size_t s = 0; s < count; ++s) {
             depths[s] = float(top_);
             if (!front) continue;
             const Seen& before = front->seen[placeOf(at[s][0], at[s][1])];
-            depths[s] = before.opaque() ? Seen::nothing : before.depth - 1e-3f;
+            const bool solid = before.opaque() || (!before.ofBody() && options_.opacity >= 1.0);
+            depths[s] = solid ? Seen::nothing : before.depth - 1e-3f;
+            if (before.piece != Seen::body) bodyPiece[s] = Seen::bodyInside;
         }
-        const auto send = [&](const Shapes& shapes, const auto& seenOf) {
-            const EyeRays eye = from(at, depths);
+        wallDepths = depths;
+        for (std::size_t s = 0; s < packet; ++s)
+            if (front && !options_.allWalls && bodyPiece[s] != Seen::body)
+                wallDepths[s] = Seen::nothing; // behind the nearest wall there is no other
+        const auto send = [&](const Shapes& shapes, const auto& begins, const auto& seenOf) {
+            const EyeRays eye = from(at, begins);
             const RTCRayHit4 hits = meet(shapes, eye);
             for (std::size_t s = 0; s < count; ++s) {
                 if (hits.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -201,11 +212,16 @@ void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) cons
                 if (found.depth > seen.depth) seen = found;
             }
         };
-        if (!front || options_.allWalls)
-            send(surface_, [this](auto&&... ray) { return hitOf(ray...); });
+        send(surface_, wallDepths, [this](auto&&... ray) { return hitOf(ray...); });
         if (!atoms_) continue;
         if (!front) std::fill_n(depths.begin(), count, float(view_.far + 1.0)); // not cut
-        send(*atoms_, [this](auto&&... ray) { return atomOf(ray...); });
+        send(*atoms_, depths, [this](auto&&... ray) { return atomOf(ray...); });
+        if (!bodies_) continue;
+        send(*bodies_, depths, [&](const RTCRayHit4& hits, std::size_t s, const Vec3d& start) {
+            Seen seen = bodyOf(hits, s, start);
+            seen.piece = bodyPiece[s];
+            return seen;
+        });
     }
 }
 
@@ -272,7 +288,7 @@ PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const
 {
     PixelLight light;
     Vec3d at(0.0);
-    bool isAtom = false;
+    bool isAtom = false, isBody = false, isWall = false;
     for (int row = subpixels * y; row < subpixels * (y + 1); ++row) {
         for (int column = subpixels * x; column < subpixels * (x + 1); ++column) {
             const Seen& seen = layer.seen[placeOf(column, row)];
@@ -281,13 +297,15 @@ PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const
             light.nx = seen.nx;
             light.ny = seen.ny;
             isAtom = seen.piece == Seen::atom;
+            isBody = seen.ofBody();
+            isWall = !isAtom && !isBody && options_.opacity >= 1.0; // of an opaque surface
             at = view_.at((column + 0.5) / subpixels, (row + 0.5) / subpixels) +
                  double(seen.depth) * view_.toEye;
         }
     }
     // Walls that are seen through let light through: walls behind them have no shadow, and atoms
-    // there only that of each other.
-    if (light.depth == Seen::nothing || (!isFirst && !isAtom)) return light;
+    // there only that of each other. Bodies have the light of the open.
+    if (light.depth == Seen::nothing || isBody || (!isFirst && !isAtom && !isWall)) return light;
     const int step = lightStep(options_);
     const int left = x - x % step, top = y - y % step;
     const bool asks = (left == x && top == y) || // a thin thing may miss the pixels that ask
@@ -331,6 +349,21 @@ Seen Tracer::atomOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) co
     return out;
 }
 
+Seen Tracer::bodyOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) const
+{
+    const Mesh& mesh = bodies_->mesh;
+    const auto& t = bodies_->triangleOf(rays, s);
+    const Vec3f weights(1.0f - rays.hit.u[s] - rays.hit.v[s], rays.hit.u[s], rays.hit.v[s]);
+    const Vec3d normal(weights[0] * mesh.normals[t[0]] + weights[1] * mesh.normals[t[1]] +
+                       weights[2] * mesh.normals[t[2]]);
+    const double start = from.dot(view_.toEye) - view_.center.dot(view_.toEye);
+    // A back wall, which the eye sees from inside, faces the eye with its other side.
+    Seen out = facing(float(start - double(rays.ray.tfar[s])),
+                      normal.dot(view_.toEye) < 0.0 ? -normal : normal);
+    out.color = mesh.colors[t[0]];
+    return out;
+}
+
 Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) const
 {
     const MeshInstance* copy = surface_.copyOf(rays, s);
@@ -358,8 +391,8 @@ Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) con
     Vec3d normal = placed(weights[0] * mesh.normals[t[0]] + weights[1] * mesh.normals[t[1]] +
                           weights[2] * mesh.normals[t[2]]);
     Seen out = facing(float(start - length), fromBehind ? -normal : normal);
-    // Copies beside each other get different numbers below those of cuts and atoms.
-    if (copy) out.piece = std::uint8_t(rays.hit.instID[0][s] % Seen::atom);
+    // Copies beside each other get different numbers below those of cuts, atoms and bodies.
+    if (copy) out.piece = std::uint8_t(rays.hit.instID[0][s] % Seen::body);
     const Vec3d x = from - length * view_.toEye;
     out.color = colorAt(t.data(), weights, copy ? broughtBack(*copy, x) : x);
     if (copy) out.color = mesh.colors.empty() ? copy->color : multiplied(out.color, copy->color);

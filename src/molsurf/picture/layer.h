@@ -50,8 +50,10 @@ inline openvdb::Vec3f normalOf(std::int16_t nx, std::int16_t ny)
 /// The nearest point in one place of a picture.
 struct Seen {
     static constexpr float nothing = -std::numeric_limits<float>::infinity();
-    static constexpr std::uint8_t cut = 255;  ///< `piece` of the inside, where it is cut
-    static constexpr std::uint8_t atom = 254; ///< of what DrawOptions::model has
+    static constexpr std::uint8_t cut = 255;        ///< `piece` of the inside, where it is cut
+    static constexpr std::uint8_t atom = 254;       ///< of what DrawOptions::model has
+    static constexpr std::uint8_t bodyInside = 253; ///< of a body behind a wall of the surface
+    static constexpr std::uint8_t body = 252;       ///< of a body before any wall of it
 
     float depth = nothing; ///< along toEye, from the center [Å]
     std::int16_t nx = 0,
@@ -61,6 +63,7 @@ struct Seen {
 
     bool any() const { return depth > nothing; }
     bool opaque() const { return piece >= atom; } ///< whatever the surface is
+    bool ofBody() const { return piece == body || piece == bodyInside; }
     /// To the right, up, toward the eye.
     openvdb::Vec3f normal() const { return normalOf(nx, ny); }
 };
@@ -154,6 +157,7 @@ private:
     PixelLight lightOf(int x, int y, bool isFirst, const Layer& layer) const;
     Seen hitOf(const RTCRayHit4& rays, std::size_t s, const openvdb::Vec3d& from) const;
     Seen atomOf(const RTCRayHit4& rays, std::size_t s, const openvdb::Vec3d& from) const;
+    Seen bodyOf(const RTCRayHit4& rays, std::size_t s, const openvdb::Vec3d& from) const;
     Seen facing(float depth, openvdb::Vec3d normal) const;
     Color colorAt(const std::uint32_t* corners, const openvdb::Vec3f& weights,
                   const openvdb::Vec3d& x) const;
@@ -170,7 +174,7 @@ private:
     const PictureStyle& style_;
     const DrawOptions& options_;
     Shapes surface_;
-    std::optional<Shapes> atoms_;
+    std::optional<Shapes> atoms_, bodies_;
     double top_; ///< depth where rays begin [Å]
     bool clips_; ///< whether that cuts the mesh
     openvdb::Vec3d lamp_;

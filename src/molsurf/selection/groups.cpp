@@ -326,7 +326,8 @@ GroupBy parseGroupBy(const std::string& text)
         parseWhole(std::string_view(text).substr(9), by.residues) && by.residues >= 1)
         return by;
     throw Error(ErrorKind::Usage,
-                "`groupBy`: expected chain, entity, class, copy or residues:N, got '" + text + "'");
+                "`groupBy`: expected chain, entity, class, copy or residues:N, got '" + text + "'" +
+                    didYouMean(text, {"chain", "entity", "class", "copy", "residues:1"}));
 }
 
 std::string textOf(const GroupBy& by)

@@ -346,7 +346,9 @@ RadiiSet readRadii(const std::string& name, std::size_t maxBytes)
         throw Error(ErrorKind::Input,
                     "radii: expected bondi, alvarez, gemmi, protor, naccess, martini, martini2, "
                     "martini3 or a file that exists, got " +
-                        inQuotes(name));
+                        inQuotes(name) +
+                        didYouMean(name, {"bondi", "alvarez", "gemmi", "protor", "naccess",
+                                          "martini", "martini2", "martini3"}));
     }
     return readFile(name, maxBytes);
 }

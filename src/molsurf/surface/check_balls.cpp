@@ -40,6 +40,23 @@ void checkFinite(const std::vector<Ball>& balls)
     }
 }
 
+std::string packingWarning(const std::vector<Ball>& balls)
+{
+    // Diamond has 0.18 atoms in an Å^3; coordinates in nanometres make that 180.
+    constexpr double densest = 1.0; // [1/Å^3]
+    constexpr std::size_t few = 10;
+    if (balls.size() < few) return {};
+    openvdb::BBoxd box;
+    for (const Ball& ball : balls) box.expand(openvdb::Vec3d(ball.center));
+    const openvdb::Vec3d size = box.extents() + openvdb::Vec3d(1.0); // of flat ones, too
+    const double density = double(balls.size()) / (size[0] * size[1] * size[2]);
+    if (!(density > densest)) return {};
+    return formatted(
+        "there are %.3g atoms in an Å^3, where diamond has 0.18: are the coordinates in "
+        "nanometres? [hint: multiply them by 10]",
+        density);
+}
+
 void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, Pieces pieces,
                 std::size_t memory)
 {

@@ -9,6 +9,7 @@
 #include "molsurf/options.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace molsurf
@@ -30,5 +31,9 @@ void checkFinite(const std::vector<Ball>& balls);
 ///         voxel would do
 void checkBalls(const std::vector<Ball>& balls, const SurfaceOptions& options, Pieces pieces,
                 std::size_t memory);
+
+/// A warning on atoms that are packed as no matter is: coordinates in nanometres, most likely.
+/// @return one line; empty: none
+std::string packingWarning(const std::vector<Ball>& balls);
 
 } // namespace molsurf

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace molsurf
@@ -103,10 +104,16 @@ void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
         const std::vector<Color> own = chainColors(surface, progress);
         for (std::size_t i = 0; i < own.size(); ++i) ofSurface[surface.labels->chains[i]] = own[i];
     }
+    std::set<std::string> chains; // of the surface and of what is shown beside it
+    for (const auto& [name, color] : ofSurface) chains.insert(name);
+    for (const BallSet& some : atoms)
+        for (const std::int32_t chain : some.labels->chainOf)
+            chains.insert(some.labels->chains[std::size_t(chain)]);
     std::vector<ShownAtoms> shown;
     for (std::size_t k = 0; k < atoms.size(); ++k) {
         atoms[k].labels->chainColors = colorsOfChains(atoms[k], ofSurface, progress);
-        shown.push_back({std::move(atoms[k]), rules[k], bonds});
+        const bool byChain = chains.size() > 1 && !rules[k].golden;
+        shown.push_back({std::move(atoms[k]), rules[k], bonds, byChain});
     }
     const double bytes = bytesOfModel(shown), available = double(availableMemory());
     if (bytes > available)

@@ -58,14 +58,11 @@ FileSetting latticeSetting()
             [](FileSettings& to, const Values& values) { to.apbsInput = values.back(); }};
 }
 
-/// A constant of the Poisson-Boltzmann equation, from `low` on.
+/// A constant of the Poisson-Boltzmann equation.
 template<typename Of>
-FileSetting constantSetting(const char* name, const char* value, const char* text,
-                            const char* preset, double low, const Of& of)
+FileSetting constantSetting(RowTexts texts, const NumberRange& range, const Of& of)
 {
-    return numberRow<FileSettings>(
-        {name, value, text, preset}, holds::Solver,
-        {low, 1e6, low > 0.0 ? "a number above 0" : "a number from 0 on"}, of);
+    return numberRow<FileSettings>(std::move(texts), holds::Solver, range, of);
 }
 
 } // namespace
@@ -78,13 +75,14 @@ const char* nameOf(Walls walls)
 const std::vector<FileSetting>& fileSettings()
 {
     static const std::vector<FileSetting> all = {
-        wordRow<FileSettings>("walls",
-                              "closed pieces that meshes and pictures have: all; outer,\n"
-                              "without cavities; or cavities alone",
-                              holds::Triangles | holds::VertexCurvatures | holds::Stage |
-                                  holds::ColorChoices | holds::Pixels,
-                              std::vector{Walls::All, Walls::Outer, Walls::Cavities},
-                              MOLSURF_OF(walls)),
+        wordRow<FileSettings>(
+            "walls",
+            "closed pieces that meshes and pictures have: all; outer,\n"
+            "without cavities; or cavities alone",
+            holds::Triangles | holds::VertexCurvatures | holds::Stage | holds::ColorChoices |
+                holds::Pixels,
+            std::vector{Walls::All, Walls::Outer, Walls::Cavities}, MOLSURF_OF(walls),
+            {{"outside exterior", "outer"}, {"inner inside interior", "cavities"}}),
         switchRow<FileSettings>("crisp", "mesh files: triangles are cut where colours meet",
                                 holds::CutBorders, MOLSURF_OF(crisp)),
         programSetting(),
@@ -101,12 +99,13 @@ const std::vector<FileSetting>& fileSettings()
             {"print-scale", "S", ".stl, .obj, .wrl, .3mf in mm, S of them per Å", ""},
             holds::Millimetres, {1e-6, 1e6, "mm per Å, from 1e-6 to 1e6"}, MOLSURF_OF(printScale)),
         latticeSetting(),
-        constantSetting("pdie", "E", "relative permittivity of the molecule", "2", 1e-6,
-                        MOLSURF_OF(dielectric.inside)),
-        constantSetting("sdie", "E", "relative permittivity of the solvent", "78.54", 1e-6,
-                        MOLSURF_OF(dielectric.outside)),
-        constantSetting("ion-conc", "C", "concentration of a 1:1 salt [mol/L]", "0", 0.0,
-                        MOLSURF_OF(dielectric.salt))};
+        constantSetting({"pdie", "E", "relative permittivity of the molecule", "2"},
+                        {1.0, 1e6, "a number from 1 on"}, MOLSURF_OF(dielectric.inside)),
+        constantSetting({"sdie", "E", "relative permittivity of the solvent", "78.54"},
+                        {1.0, 1e6, "a number from 1 on"}, MOLSURF_OF(dielectric.outside)),
+        // Salts of water saturate near 6 mol/L: what is above 10 is in mmol/L.
+        constantSetting({"ion-conc", "C", "concentration of a 1:1 salt [mol/L]", "0"},
+                        {0.0, 10.0, "0 to 10 mol/L"}, MOLSURF_OF(dielectric.salt))};
     return all;
 }
 

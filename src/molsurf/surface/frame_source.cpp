@@ -18,10 +18,10 @@ FrameRange parseFrames(const std::string& text)
 {
     FrameRange range;
     if (text == "all") return range;
-    const auto wrong = [&]() -> void {
+    const auto wrong = [&](const std::string& hint = "") -> void {
         throw Error(ErrorKind::Usage, "`frames`: expected all, or FIRST-LAST:STEP with whole "
                                       "numbers from 1, FIRST not above LAST, got '" +
-                                          text + "'");
+                                          text + "'" + hint);
     };
     const char *at = text.data(), *end = at + text.size();
     const auto number = [&](int& value) {
@@ -30,6 +30,10 @@ FrameRange parseFrames(const std::string& text)
         at = stop;
     };
     number(range.first);
+    if (at != end && *at != '-') { // a range of Python or of MDAnalysis, or a step of one frame
+        const char* next = std::find_if(at, end, [](char c) { return c >= '0' && c <= '9'; });
+        wrong(next == end ? "" : meant(std::to_string(range.first) + "-" + std::string(next, end)));
+    }
     range.last = range.first;
     if (at != end && *at == '-') {
         range.last = 0;
@@ -139,6 +143,33 @@ void FrameSource::update()
     structure_.settled.clear();
 }
 
+void FrameSource::superpose(const AnchorRule& rule)
+{
+    anchorRule_ = rule;
+    anchors_ =
+        anchorsOf(structure_, rule, trajectory_ ? structure_.models[model_].number : number(0));
+    assemblies_ = structure_.assemblies;
+}
+
+const Superposition* FrameSource::superposed(std::size_t i) const
+{
+    const auto known = motions_.find(i);
+    return known == motions_.end() ? nullptr : &known->second;
+}
+
+void FrameSource::layOnFirst(std::size_t i, const Model& model)
+{
+    if (anchorRule_.anchors.empty()) return;
+    auto known = motions_.find(i);
+    if (known == motions_.end() || trajectory_) { // a model stays where it was moved to
+        const Superposition motion =
+            superpositionOf(anchorsOf(structure_, anchorRule_, model.number), anchors_);
+        moveBy(motion, model, structure_);
+        known = motions_.insert_or_assign(i, motion).first;
+    }
+    structure_.assemblies = moved(known->second, assemblies_);
+}
+
 BallSet FrameSource::load(std::size_t i)
 {
     SelectOptions options = atoms_;
@@ -152,6 +183,10 @@ BallSet FrameSource::load(std::size_t i)
     } else {
         options.model = number(i);
     }
+    layOnFirst(i, trajectory_
+                      ? model
+                      : *std::find_if(structure_.models.begin(), structure_.models.end(),
+                                      [&](const Model& m) { return m.number == number(i); }));
     return selectBalls(structure_, options, probe_, progress_);
 }
 

@@ -6,6 +6,7 @@
 
 #include "molsurf/atoms.h"
 #include "molsurf/progress.h"
+#include "molsurf/selection/superpose.h"
 #include "molsurf/structure/structure.h"
 #include "molsurf/structure/trajectory.h"
 
@@ -45,6 +46,13 @@ public:
     /// have other balls than the first. To be called before balls().
     void update();
 
+    /// Lays every frame on the first one. To be called before balls().
+    /// @throws Error(ErrorKind::Input) if the first frame has no such atoms
+    void superpose(const AnchorRule& rule);
+
+    /// How frame i, which was loaded, lies on the first one; null: it was not moved.
+    const Superposition* superposed(std::size_t i) const;
+
     std::size_t size() const { return numbers_.size(); }
 
     /// The bonds that the structure gives; null: none.
@@ -68,6 +76,7 @@ private:
     /// Keeps the atoms of selections by distance as they are in the first frame.
     void chooseAtoms();
     BallSet load(std::size_t i);
+    void layOnFirst(std::size_t i, const Model& model);
     void keepColors(BallSet& selection);
     [[noreturn]] void missing(int number, const std::string& there) const;
     void chooseModels(const FrameRange& range);
@@ -79,6 +88,10 @@ private:
     Structure structure_;
     std::unique_ptr<Trajectory> trajectory_;
     bool updates_ = false;
+    AnchorRule anchorRule_;            ///< of superpose(); no anchors: none
+    Anchors anchors_;                  ///< of the first frame
+    std::vector<Assembly> assemblies_; ///< where the first frame has them
+    std::map<std::size_t, Superposition> motions_;
     std::size_t model_ = 0; ///< of the structure, for a trajectory
     std::vector<int> numbers_;
     std::map<std::size_t, BallSet> loaded_;

@@ -28,19 +28,34 @@ bool hasLength(const openvdb::Vec3d& way)
     return way.length() > 0.0 && std::isfinite(way.length());
 }
 
+/// Three numbers with commas between.
+std::optional<openvdb::Vec3d> numbersIn(const std::string& text)
+{
+    openvdb::Vec3d way;
+    const char *from = text.data(), *end = from + text.size();
+    for (int i = 0; i < 3; ++i) {
+        const auto [stop, problem] = std::from_chars(from, end, way[i]);
+        if (problem != std::errc() || (i < 2 ? stop == end || *stop != ',' : stop != end))
+            return std::nullopt;
+        from = stop + 1;
+    }
+    return way;
+}
+
 PictureSetting viewSetting()
 {
     return {"view",
             "FROM",
-            "a direction X,Y,Z toward the eye; atoms that face it, as\n"
-            "\"A/63\"; FILE.view, as -o writes it; auto: the shortest\n"
-            "extent toward the eye, the longest across",
+            "a direction toward the eye, X,Y,Z or an axis as z or -z;\n"
+            "atoms that face it, as \"A/63\"; FILE.view, as -o writes it;\n"
+            "auto: the shortest extent toward the eye, the longest across",
             "auto",
             holds::Views,
             {"auto"},
             [](PictureSettings& to, const Values& values) {
                 if (!takeView(values.back(), to.picture))
-                    wrongValue("view", "auto, a direction X,Y,Z or a FILE.view", values.back());
+                    wrongValue("view", "auto, a direction X,Y,Z, an axis as z or a FILE.view",
+                               values.back());
             }};
 }
 
@@ -48,7 +63,7 @@ PictureSetting uprightSetting()
 {
     return {"up",
             "X,Y,Z",
-            "what is upright, such as 0,0,1 of a membrane's normal;\n"
+            "what is upright, such as z, the normal of a membrane;\n"
             "without it y, or z for a view along x or y, or of itself\n"
             "the normal of a membrane, where no view is asked for",
             "",
@@ -57,15 +72,45 @@ PictureSetting uprightSetting()
             [](PictureSettings& to, const Values& values) {
                 const auto way = directionOf(values.back());
                 if (!way || !hasLength(*way))
-                    wrongValue("up", "a direction X,Y,Z that is not 0", values.back());
+                    wrongValue("up", "a direction X,Y,Z that is not 0, or an axis as z",
+                               values.back());
                 to.picture.upright = *way;
             }};
 }
 
 PictureSetting sizeSetting()
 {
-    return {"size",        "N", "width in pixels; the height follows the shape",          "1200",
-            holds::Pixels, {},  countSetter("size", 16, 16384, MOLSURF_OF(picture.width))};
+    const auto set = countSetter("size", 16, 16384, MOLSURF_OF(picture.width));
+    return {"size",
+            "N",
+            "width in pixels; the height follows the shape",
+            "1200",
+            holds::Pixels,
+            {},
+            [set](PictureSettings& to, const Values& values) {
+                const std::size_t by = lowered(values.back()).find_first_of("x,*"); // "800x600"
+                if (by != std::string::npos && by > 0)
+                    wrongValue("size", "the width alone", values.back(),
+                               meant(values.back().substr(0, by)));
+                set(to, values);
+            }};
+}
+
+PictureSetting opacitySetting()
+{
+    constexpr NumberRange range = {0.01, 1.0, "a number from 0.01 to 1"};
+    PictureSetting row = numberRow<PictureSettings>(
+        {"opacity", "O", "of the surface, seen from the front", "1"},
+        holds::Pixels | holds::ColorChoices, range, MOLSURF_OF(picture.opacity));
+    row.set = [set = row.set, range](PictureSettings& to, const Values& values) {
+        std::string number = values.back();
+        if (!number.empty() && number.back() == '%') number.pop_back();
+        double percent = 0.0;
+        if (parseWhole(number, percent) && percent > 1.0 && percent <= 100.0)
+            wrongValue("opacity", range.words, values.back(), meant(shortest(percent / 100.0)));
+        set(to, values);
+    };
+    return row;
 }
 
 PictureSetting backgroundSetting()
@@ -169,20 +214,16 @@ NoteText rulerText(const std::string& text)
 
 std::optional<openvdb::Vec3d> directionOf(const std::string& text)
 {
-    openvdb::Vec3d way;
-    const char *from = text.data(), *end = from + text.size();
-    for (int i = 0; i < 3; ++i) {
-        const auto [stop, problem] = std::from_chars(from, end, way[i]);
-        if (problem != std::errc() || (i < 2 ? stop == end || *stop != ',' : stop != end))
-            return std::nullopt;
-        from = stop + 1;
-    }
-    return way;
+    const std::string word = lowered(text), axis = word.substr(word.rfind('-', 0) == 0 ? 1 : 0);
+    if (axis != "x" && axis != "y" && axis != "z") return numbersIn(text);
+    openvdb::Vec3d direction(0.0);
+    direction[axis[0] - 'x'] = axis.size() == word.size() ? 1.0 : -1.0;
+    return direction;
 }
 
 std::optional<openvdb::Vec3d> placeIn(const std::string& text)
 {
-    const auto place = directionOf(text);
+    const auto place = numbersIn(text);
     for (int a = 0; place && a < 3; ++a)
         if (!(std::abs((*place)[a]) <= 1e6)) return std::nullopt;
     return place;
@@ -211,10 +252,7 @@ const std::vector<PictureSetting>& pictureSettings()
         backgroundSetting(),
         plainColorSetting(),
         styleSetting(),
-        numberRow<PictureSettings>({"opacity", "O", "of the surface, seen from the front", "1"},
-                                   holds::Pixels | holds::ColorChoices,
-                                   {0.01, 1.0, "a number from 0.01 to 1"},
-                                   MOLSURF_OF(picture.opacity)),
+        opacitySetting(),
         switchRow<PictureSettings>("all-walls",
                                    "`opacity` shows what is behind the nearest wall, too",
                                    holds::Pixels, MOLSURF_OF(picture.allWalls)),
@@ -229,7 +267,7 @@ const std::vector<PictureSetting>& pictureSettings()
         wordRow<PictureSettings>(
             "legend", "on or off; auto: beside colours, if 600 pixels wide\nor more", holds::Pixels,
             std::vector{LegendChoice::Auto, LegendChoice::On, LegendChoice::Off},
-            MOLSURF_OF(legend)),
+            MOLSURF_OF(legend), {{"yes true 1 show", "on"}, {"no false 0 none hide", "off"}}),
         noteSetting("label", "X,Y,Z=TEXT", "a text at a place; repeats", labelText),
         noteSetting("ruler", "X,Y,Z..X,Y,Z", "a line between two places with its length; repeats",
                     rulerText),

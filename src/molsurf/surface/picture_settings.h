@@ -44,7 +44,7 @@ const std::vector<PictureSetting>& pictureSettings();
 /// @throws Error(ErrorKind::Usage) if there is none
 const PictureSetting& pictureSetting(const std::string& name);
 
-/// A direction X,Y,Z; none: the text is no such.
+/// A direction X,Y,Z, or an axis as x or -z; none: the text is no such.
 std::optional<openvdb::Vec3d> directionOf(const std::string& text);
 
 /// A place X,Y,Z within 1e6 Å of the origin; none: the text is no such.

@@ -127,6 +127,8 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
     WholeSurface made = colored(atoms, options, progress);
     MolecularSurface& result = made.surface;
     describeAtoms(atoms, result.report);
+    if (const std::string text = packingWarning(atoms.balls); !text.empty())
+        result.report.warnings.push_back(text);
     result.report.voxel = options.voxel;
     const SurfaceSpec shown = areasShown(options);
     if (options.ballAreas || options.contacts || options.interfaces)

@@ -85,8 +85,10 @@ auto numberSetter(const std::string& option, double low, double high, const std:
 }
 
 /// One of a few values that nameOf() names.
+/// @param[in] others  further words and what is meant by them, for the hint of an error
 template<typename Of, typename Enum>
-auto wordSetter(const std::string& option, const std::vector<Enum>& choices, const Of& of)
+auto wordSetter(const std::string& option, const std::vector<Enum>& choices, const Of& of,
+                const std::vector<Synonyms>& others = {})
 {
     return [=](auto& target, const std::vector<std::string>& values) {
         std::vector<std::string> words;
@@ -97,7 +99,7 @@ auto wordSetter(const std::string& option, const std::vector<Enum>& choices, con
             return;
         }
         wrongValue(option, joinWords(words, " or "), values.back(),
-                   didYouMean(values.back(), words));
+                   didYouMean(values.back(), words, others));
     };
 }
 

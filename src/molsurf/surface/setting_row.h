@@ -70,7 +70,8 @@ SettingRow<To> switchRow(const char* name, std::string text, unsigned shownIn, c
 /// The row of one of a few values that nameOf() names, the first of them the default.
 template<typename To, typename Of, typename Enum>
 SettingRow<To> wordRow(const char* name, std::string text, unsigned shownIn,
-                       const std::vector<Enum>& choices, const Of& of)
+                       const std::vector<Enum>& choices, const Of& of,
+                       const std::vector<Synonyms>& others = {})
 {
     SettingRow<To> row{name,
                        "WORD",
@@ -78,7 +79,7 @@ SettingRow<To> wordRow(const char* name, std::string text, unsigned shownIn,
                        nameOf(choices.front()),
                        shownIn,
                        {},
-                       wordSetter(name, choices, of)};
+                       wordSetter(name, choices, of, others)};
     for (const Enum choice : choices) row.words.push_back(nameOf(choice));
     return row;
 }

@@ -155,7 +155,8 @@ std::pair<std::string, SurfaceKind> parseSurfaceOf(const std::string& text)
             lowered(text.substr(split + 1)) == nameOf(kind))
             return {text.substr(0, split), kind};
     }
-    wrongValue("surface-of", "GROUP=KIND with a kind of `surface`", text);
+    wrongValue("surface-of", "GROUP=KIND with a kind of `surface`", text,
+               split == std::string::npos ? "" : kindMeant(text.substr(split + 1)));
 }
 
 /// D or SELECTION=D, the selection ending at the last =.
@@ -319,10 +320,24 @@ Setting fieldSetting()
     return fields;
 }
 
+Setting kindSetting()
+{
+    Setting row = word("surface", "KIND", kindText(), MOLSURF_OF(options.kind), surfaceKinds());
+    row.set = [words = row.words](Settings& s, const Values& values) {
+        for (const SurfaceKind kind : surfaceKinds()) {
+            if (lowered(values.back()) != nameOf(kind)) continue;
+            s.options.kind = kind;
+            return;
+        }
+        wrongValue("surface", joinWords(words, " or "), values.back(), kindMeant(values.back()));
+    };
+    return row;
+}
+
 std::vector<Setting> surfaceSettings()
 {
     return {
-        word("surface", "KIND", kindText(), MOLSURF_OF(options.kind), surfaceKinds()),
+        kindSetting(),
         within(minVoxel, maxVoxel,
                number("voxel", "H", "edge of a voxel [Å], 0.05 to 10", MOLSURF_OF(options.voxel))),
         onlyOf([](const KindRow& kind) { return kind.hasProbe; },
@@ -484,6 +499,26 @@ Values colorWords()
     return words;
 }
 
+/// Colours of other programs.
+const std::vector<Synonyms>& otherColors()
+{
+    static const std::vector<Synonyms> all = {
+        {"plddt confidence af alphafold", "bfactor, with `palette` plddt"},
+        {"electrostatic electrostatics esp apbs coulombic", "potential=FILE.dx"},
+        {"potential", "potential=FILE.dx"},
+        {"b b-factor b-factors bfac tempfactor temperature", "bfactor"},
+        {"by-chain bychain chainid chainbow", "chain"},
+        {"by-element byelement atom atoms cpk heteroatom", "element"},
+        {"by-residue resname residue-name aa", "residue"},
+        {"spectrum n-to-c resid index", "rainbow"},
+        {"hydropathy kyte-doolittle lipophilicity mlp", "hydrophobicity"},
+        {"curvature", "mean-curvature"},
+        {"conservation consurf scores csv", "table=FILE"},
+        {"charges", "charge"},
+        {"pockets", "pocket"}};
+    return all;
+}
+
 void setColor(Settings& s, const Values& values)
 {
     const std::string typed = lowered(values.back());
@@ -509,7 +544,8 @@ void setColor(Settings& s, const Values& values)
     }
     const Values all = colorWords();
     wrongValue("color", joinWords(all, ", "), values.back(),
-               parseColor(word) ? " [hint: `color` plain=" + word + "]" : didYouMean(word, all));
+               parseColor(word) ? " [hint: `color` plain=" + word + "]"
+                                : didYouMean(word, all, otherColors()));
 }
 
 Setting colorSetting()
@@ -540,10 +576,18 @@ void setRange(Settings& s, const Values& values)
 {
     const std::string expected = "two numbers LOW,HIGH, the first one less";
     const Values words = splitWords(values.back());
-    if (words.size() != 2) wrongValue("range", expected, values.back());
+    if (words.size() != 2) {
+        const std::size_t dash = values.back().find_first_of("-:", 1); // "0-100"
+        const bool two = words.size() == 1 && dash < values.back().size();
+        wrongValue("range", expected, values.back(),
+                   two ? meant(values.back().substr(0, dash) + "," + values.back().substr(dash + 1))
+                       : "");
+    }
     const double low = parsedValue<double>("range", expected, words[0]);
     const double high = parsedValue<double>("range", expected, words[1]);
-    if (!(low < high)) wrongValue("range", expected, values.back());
+    if (!(low < high))
+        wrongValue("range", expected, values.back(),
+                   low > high ? meant(words[1] + "," + words[0]) : "");
     s.atoms.coloring.range = {low, high};
 }
 
@@ -631,7 +675,11 @@ std::vector<Setting> groupSettings()
                   "group", "a level set and a closed mesh for every group, alone",
                   "",      {"group"}};
     split.set = [](Settings& s, const Values& values) {
-        if (lowered(values.back()) != "group") wrongValue("split", "group", values.back());
+        const std::string word = lowered(values.back());
+        const bool grouping = word == "chain" || word == "entity" || word == "copy";
+        if (word != "group")
+            wrongValue("split", "group", values.back(),
+                       grouping ? " [hint: `groupBy` " + word + " `split` group]" : "");
         s.options.split = true;
     };
     split.get = [](const Settings& s) { return std::string(s.options.split ? "group" : "none"); };

@@ -70,12 +70,20 @@ ApbsGrid solverGrid(const std::string& apbsInput, const BallSet& atoms)
     return grid;
 }
 
-std::string solverWarning(const SurfaceSpec& surface)
+std::vector<std::string> solverWarnings(const SurfaceSpec& surface, const Dielectric& dielectric)
 {
-    if (surface.kind == SurfaceKind::SolventExcluded || surface.inset > 0.0) return {};
-    return std::string("`surface` ") + nameOf(surface.kind) +
-           ": its energy is another one than that of the solvent-excluded surface [hint: "
-           "`surface` ses, or `match` ses]";
+    std::vector<std::string> warnings;
+    if (surface.kind != SurfaceKind::SolventExcluded && surface.inset == 0.0)
+        warnings.push_back(std::string("`surface` ") + nameOf(surface.kind) +
+                           ": its energy is another one than that of the solvent-excluded surface "
+                           "[hint: `surface` ses, or `match` ses]");
+    const bool vacuum = dielectric.outside == 1.0;
+    if (dielectric.inside > dielectric.outside && !vacuum)
+        warnings.push_back(formatted(
+            "`pdie` %g is above `sdie` %g: the molecule is more polar than "
+            "the solvent [hint: `pdie` %g `sdie` %g]",
+            dielectric.inside, dielectric.outside, dielectric.outside, dielectric.inside));
+    return warnings;
 }
 
 } // namespace molsurf

@@ -48,8 +48,8 @@ std::string solverPath(const std::string& folder, const std::string& input,
 /// @throws Error(ErrorKind::Input) if it is wrong or does not cover the atoms
 ApbsGrid solverGrid(const std::string& apbsInput, const BallSet& atoms);
 
-/// The energy of another surface than ses or one that matches it is another one.
-/// @return a warning, with `surface` in backticks; empty for such a surface
-std::string solverWarning(const SurfaceSpec& surface);
+/// Warnings on the energy, with names of options in backticks: a surface that neither is ses nor
+/// matches it has another energy, and a solvent less polar than the molecule is a slip.
+std::vector<std::string> solverWarnings(const SurfaceSpec& surface, const Dielectric& dielectric);
 
 } // namespace molsurf

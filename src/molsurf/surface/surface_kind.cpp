@@ -38,6 +38,24 @@ const char* nameOf(SurfaceKind kind)
     return rowOf(kind).word;
 }
 
+std::string kindMeant(const std::string& typed)
+{
+    std::string word = lowered(typed);
+    if (const std::size_t end = word.rfind("surface"); end != std::string::npos && end > 1)
+        word.resize(end - 1); // "vdw-surface"
+    const std::string other =
+        meaningOf(word, {{"connolly ms msms excluded molecular solvent-excluded edtsurf", "ses"},
+                         {"sasa accessible solvent-accessible asa lee-richards", "sas"},
+                         {"vdws van-der-waals vanderwaals spacefill cpk spheres", "vdw"},
+                         {"gauss quicksurf blob blobby metaball metaballs", "gaussian"},
+                         {"smooth skin default tms", "variational"},
+                         {"mesh triangles", "-o FILE.ply, the mesh of any kind"}});
+    if (!other.empty()) return meant(other) + " (more hints: vdb_molsurf help surface)";
+    std::vector<std::string> words;
+    for (const KindRow& row : kindTable()) words.push_back(row.word);
+    return didYouMean(word, words);
+}
+
 double probeOf(const SurfaceSpec& spec)
 {
     return rowOf(spec.kind).hasProbe ? spec.probe : 0.0;

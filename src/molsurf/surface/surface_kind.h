@@ -69,6 +69,10 @@ inline bool isBare(SurfaceKind kind)
     return rowOf(kind).isUnion && !rowOf(kind).hasProbe;
 }
 
+/// A hint on a word that names no kind: the nearest one, or what another program's word is here.
+/// @return " [hint: did you mean ses?]", or empty
+std::string kindMeant(const std::string& word);
+
 /// Gives how far the surface lies inside the set whose distance is known [Å], >= 0.
 double offsetOf(const SurfaceSpec& spec);
 

@@ -43,8 +43,8 @@ TEST(WriteComparison, KeysAndValues)
 {
     const Json json = Json::parse(comparisonText(sampleComparison()));
     EXPECT_EQ(keys(json), (Names{"program", "version", "command", "a", "b", "a_to_b", "b_to_a",
-                                 "hausdorff", "area_ratio", "volume_ratio", "color", "seconds",
-                                 "peak_memory_bytes", "threads", "warnings"}));
+                                 "hausdorff", "superposition", "area_ratio", "volume_ratio",
+                                 "color", "seconds", "peak_memory_bytes", "threads", "warnings"}));
     EXPECT_EQ(keys(json["a"]), (Names{"input", "kind", "atoms", "voxel", "area", "volume",
                                       "vertices", "triangles", "closed"}));
     EXPECT_EQ(keys(json["a_to_b"]),

@@ -85,7 +85,7 @@ TEST(Files, DrawASurfaceWithItsLegend)
         return errorOf(ErrorKind::Usage, [&] { draw(name, value); });
     };
     EXPECT_HAS(errorWith("size", "15"), "`size`: expected a whole number from 16 to 16384");
-    EXPECT_HAS(errorWith("view", "A/10"), "`view`: expected auto, a direction X,Y,Z or a FILE");
+    EXPECT_HAS(errorWith("view", "A/10"), "`view`: expected auto, a direction X,Y,Z, an axis as z or a FILE");
     EXPECT_HAS(errorWith("sise", "15"), "no option of pictures is named");
 }
 
@@ -191,7 +191,7 @@ TEST(Files, HoldWhatApbsReads)
         settings.insert(settings.end(), more.begin(), more.end());
         return errorOf(ErrorKind::Usage, [&] { writeSurface({shown}, folder / "run2", settings); });
     };
-    EXPECT_HAS(errorWith({{"pdie", "0"}}), "`pdie`: expected a number above 0");
+    EXPECT_HAS(errorWith({{"pdie", "0"}}), "`pdie`: expected a number from 1 on");
     EXPECT_HAS(errorWith({{"walls", "outer"}}), "`walls`: ");
     atoms.charges.reset();
     EXPECT_HAS(errorWith({}), "with their `charges`");

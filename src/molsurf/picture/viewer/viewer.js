@@ -170,6 +170,13 @@ function showLegend(modes, bodies) {
   const [mode] = modes;
   const legend = byId('legend');
   legend.replaceChildren();
+  const heading = (text) => {
+    const line = document.createElement('h2');
+    line.textContent = text;
+    legend.append(line);
+  };
+  const titled = modes.find(({ kind, entries }) => kind === 'scale' || entries);
+  if (titled) heading(titled.title);
   if (mode.kind === 'scale') {
     const bar = document.createElement('div');
     bar.className = 'bar';
@@ -190,15 +197,18 @@ function showLegend(modes, bodies) {
   for (const { entries, missing } of modes)
     for (const entry of entries ?? (missing ? [{ name: 'no value', color: missing }] : []))
       if (entry.seen !== false) rows.set([entry.name, ...entry.color].join(), entry);
-  for (const entry of bodies) rows.set([entry.name, ...entry.color].join(), entry);
-  for (const entry of rows.values()) {
+  const add = (entry) => {
     const row = document.createElement('div');
     row.className = 'entry';
     const patch = document.createElement('i');
     patch.style.background = css(entry.color);
     row.append(patch, entry.name);
     legend.append(row);
-  }
+  };
+  rows.forEach(add);
+  if (bodies.length === 0) return;
+  heading('Pockets');
+  new Map(bodies.map((entry) => [[entry.name, ...entry.color].join(), entry])).forEach(add);
 }
 
 // ---- the atoms ------------------------------------------------------------------------------
@@ -616,6 +626,56 @@ class Layer {
     }
   }
 
+  // The direction to the eye from which the largest area of a residue is in sight, where the scene turns the group by a
+  // rotation, and the middle of the residue. Each vertex hides those that lie farther than a cell of a picture behind it.
+  sightOf(residue, rotation) {
+    const all = [], own = [], at = new Vector3(), outward = new Vector3();
+    const list = this.copies.list, shapeOf = ({ part }) => part.shapes[0];
+    const sum = list.reduce((count, copy) => count + shapeOf(copy).source.length, 0);
+    const stride = Math.ceil(sum / mostHiding);
+    let first = null; // the copy that the residue is looked at in
+    for (const copy of list) {
+      const { geometry: { attributes }, source } = shapeOf(copy);
+      for (let v = 0; v < source.length; ++v) {
+        const isOwn = (first ?? copy) === copy && this.owners.atoms[this.owners.of[source[v]]].residue === residue;
+        if (isOwn) first = copy;
+        if (!isOwn && v % stride > 0) continue;
+        at.fromBufferAttribute(attributes.position, v).applyMatrix4(copy.matrix).applyQuaternion(rotation);
+        all.push(at.x, at.y, at.z);
+        if (!isOwn) continue;
+        outward.fromBufferAttribute(attributes.normal, v).transformDirection(copy.matrix).applyQuaternion(rotation);
+        own.push({ at: at.clone(), outward: outward.clone() });
+      }
+    }
+    if (own.length === 0) return null;
+    const cell = 2 * Math.sqrt(stride) * shapeOf(list[0]).edge, right = new Vector3(), up = new Vector3();
+    let best = null;
+    for (let k = 0; k < directions; ++k) { // a golden spiral
+      const z = 1 - (2 * k + 1) / directions, r = Math.sqrt(1 - z * z), angle = 2.399963 * k;
+      const eye = new Vector3(r * Math.cos(angle), r * Math.sin(angle), z);
+      right.set(-eye.y, eye.x, 0);
+      if (right.lengthSq() < 1e-6) right.set(1, 0, 0);
+      up.crossVectors(eye, right.normalize());
+      const keyOf = (x, y, d) => {
+        const column = Math.round((x * right.x + y * right.y + d * right.z) / cell);
+        return column * 65536 + Math.round((x * up.x + y * up.y + d * up.z) / cell);
+      };
+      const nearest = new Map();
+      for (const { at: { x, y, z: d } } of own) nearest.set(keyOf(x, y, d), -Infinity);
+      for (let i = 0; i < all.length; i += 3) {
+        const key = keyOf(all[i], all[i + 1], all[i + 2]), known = nearest.get(key);
+        if (known === undefined) continue;
+        const depth = all[i] * eye.x + all[i + 1] * eye.y + all[i + 2] * eye.z;
+        if (depth > known) nearest.set(key, depth);
+      }
+      const area = own.reduce((seen, { at: p, outward: way }) => seen +
+        (p.dot(eye) > nearest.get(keyOf(p.x, p.y, p.z)) - cell ? Math.max(0, way.dot(eye)) : 0), 0);
+      if (!best || area > best.area) best = { area, eye };
+    }
+    const middle = own.reduce((mean, { at: p }) => mean.addScaledVector(p, 1 / own.length), new Vector3());
+    return { toEye: best.eye, middle };
+  }
+
   // The colours of an id; a layer that has none of them is plain.
   modeOf(id) {
     const { modes } = this.header;
@@ -643,6 +703,7 @@ const restAfter = 150; // without a move [ms]
 const longest = 200; // that a finer drawing may take when nothing moves [ms]
 const manyCopies = 300; // too many to be drawn one by one without a graphics card
 const coarseCut = 96, fineCut = 400; // texels across a cut, while it moves and at rest
+const mostHiding = 2e5, directions = 60; // vertices and directions that are tried to see a residue
 const mostSorted = 1e6; // triangles, for a drawing at rest
 
 const keyNames = [['arrows', 'turn'], ['+ \u2212', 'zoom'], ['r', 'reset view'], ['Esc', 'choose nothing'],
@@ -780,12 +841,13 @@ function start(surfaces) {
     camera.updateProjectionMatrix();
     moved = true;
   };
-  const reset = () => {
+  const wholeFrom = () => { // the distance at which a pane shows all
     const [{ width, height }] = panes();
-    const aspect = width / height;
-    const angle = (Math.min(1, aspect) * Math.PI * 15) / 180;
+    return radius / Math.sin((Math.min(1, width / height) * Math.PI * 15) / 180);
+  };
+  const reset = () => {
     camera.up.set(0, 1, 0);
-    camera.position.copy(middle).add(new Vector3(0, 0, radius / Math.sin(angle)));
+    camera.position.copy(middle).add(new Vector3(0, 0, wholeFrom()));
     camera.near = radius / 50;
     camera.far = radius * 50;
     controls.target.copy(middle);
@@ -831,8 +893,9 @@ function start(surfaces) {
     byId('captions').replaceChildren(...captions);
   };
   const setLayers = () => {
-    const place = Number(byId('layer').value);
+    const place = Number(byId('layer').value), before = wholeFrom();
     shown = place < 0 ? layers : [layers[place]];
+    zoom(wholeFrom() / before);
     byId('about').textContent = [...new Set(shown.map((layer) => layer.header.about))].join(' ');
     setCaptions();
     setAspect();
@@ -888,6 +951,7 @@ function start(surfaces) {
     const place = owners().residues.indexOf(owners().find(name));
     if (place >= 0 && !list.querySelector(`option[value="${place}"]`)) search('');
     list.value = place >= 0 ? place : '';
+    list.selectedOptions[0]?.scrollIntoView({ block: 'nearest' });
     const areas = shown.map((layer) => {
       const residue = layer.owners?.find(name);
       return residue ? `${shown.length > 1 ? `${layer.name} ` : ''}${number(residue.area, 1)} Å²` : '';
@@ -895,7 +959,18 @@ function start(surfaces) {
     byId('chosen').textContent = name ? [name, ...areas.filter(Boolean)].join(', ') : '';
     repaint();
   };
-  const chooseAt = (place) => choose(owners().nameOf(owners().residues[place]));
+  const chooseAt = (place) => { // and turns so that it is in sight
+    const residue = owners().residues[place];
+    choose(owners().nameOf(residue));
+    const sight = shown[0].sightOf(residue, upright);
+    if (!sight) return;
+    const turn = new Quaternion().setFromUnitVectors(toEye(), sight.toEye);
+    const arm = camera.position.clone().sub(controls.target).applyQuaternion(turn);
+    if (arm.length() < 0.9 * wholeFrom()) controls.target.copy(sight.middle);
+    camera.position.copy(controls.target).add(arm);
+    camera.up.applyQuaternion(turn);
+    moved = true;
+  };
   if (owners()) {
     byId('atoms').hidden = false;
     list.addEventListener('change', () => chooseAt(list.value));
@@ -1058,7 +1133,8 @@ function start(surfaces) {
     ArrowUp: () => rotate(new Vector3(1, 0, 0), -0.1), ArrowDown: () => rotate(new Vector3(1, 0, 0), 0.1),
     '+': () => zoom(0.9), '-': () => zoom(1 / 0.9), r: reset, s: layers.length > 1 && nextLayer, Escape: () => choose(null), '?': showKeys,
   };
-  canvas.addEventListener('keydown', (event) => {
+  document.addEventListener('keydown', (event) => {
+    if (event.target.closest?.('input:not([type=checkbox]), select')) return; // which have keys of their own
     if (!keys[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
     keys[event.key]();
     event.preventDefault();

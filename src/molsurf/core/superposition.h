@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// The rigid motion that lays points on others.
+
+#include <openvdb/Types.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace molsurf
+{
+
+/// A rigid motion of points, and how well it lays some of them on others.
+struct Superposition {
+    std::array<openvdb::Vec3d, 3> rows; ///< of the rotation
+    openvdb::Vec3d shift;               ///< x goes to rotation x + shift [Å]
+    std::size_t pairs = 0;              ///< of points
+    double rmsd = 0.0;                  ///< root mean square distance of the pairs [Å]
+
+    openvdb::Vec3d operator()(const openvdb::Vec3d& x) const
+    {
+        return openvdb::Vec3d(rows[0].dot(x), rows[1].dot(x), rows[2].dot(x)) + shift;
+    }
+};
+
+/// The rotation and shift of the least root mean square distance, without a mirror image: the
+/// eigenvector of the largest eigenvalue of Horn's 4 x 4 matrix is the quaternion of the rotation
+/// (B. K. P. Horn, J. Opt. Soc. Am. A 4, 629, 1987).
+/// @param[in] onto  as many as `points`
+/// @return nullopt: fewer than three pairs, or points on one line, so that the rotation is not
+///         determined
+std::optional<Superposition> superposition(const std::vector<openvdb::Vec3d>& points,
+                                           const std::vector<openvdb::Vec3d>& onto);
+
+} // namespace molsurf
