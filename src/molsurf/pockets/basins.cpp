@@ -202,11 +202,22 @@ struct RoomParts {
             isIn[r] = isBelow(node.place, node.clearance);
             if (isIn[r]) tops.emplace_back(-float(node.clearance), std::int32_t(r));
         }
-        const auto roomOf = [&](std::size_t basin) {
-            const std::int32_t start = graph.starts[basin];
-            const std::int32_t room = start == VoidGraph::none ? 0 : rooms.of[std::size_t(start)];
-            return isIn[std::size_t(room)] ? room : 0;
-        };
+        // The room that the way up from a basin's peak leads to without leaving what is below the
+        // cut, or 0.
+        std::vector<std::int32_t> highest(basins.count(), 0);
+        for (std::size_t b = 0; b < basins.count(); ++b) {
+            std::int32_t n = graph.starts[b];
+            if (n == VoidGraph::none || !isIn[std::size_t(rooms.of[std::size_t(n)])]) continue;
+            bool stays = true;
+            while (stays && rooms.up[std::size_t(n)] != VoidGraph::none) {
+                const auto& ends = graph.edges[std::size_t(rooms.up[std::size_t(n)])].nodes;
+                n = ends[ends[0] == n ? 1 : 0];
+                const VoidGraph::Node& node = graph.nodes[std::size_t(n)];
+                stays = isBelow(node.place, node.clearance);
+            }
+            if (stays) highest[b] = rooms.of[std::size_t(n)];
+        }
+        const auto roomOf = [&](std::size_t basin) { return highest[basin]; };
         for (std::size_t b = 0; b < basins.count(); ++b)
             if (roomOf(b) == 0) tops.emplace_back(-basins.peaks[b], -1 - std::int32_t(b));
         std::sort(tops.begin(), tops.end());

@@ -335,8 +335,9 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
 {
     const VoidField space = voidField(balls, options, voxelSize, progress);
     const double voxelVolume = voxelSize * voxelSize * voxelSize;
+    const double nearCut = options.probeOut + options.cut + 1.0; // a guess, as pocketDepth [Å]
     const BelowCut below = [&](const openvdb::Vec3d& x, double room) {
-        return space.outer->at(x, room >= options.probeOut, pocketDepth).value - options.cut;
+        return space.outer->at(x, room >= options.probeOut, nearCut).value - options.cut;
     };
     const RoomBasins split = splitAtRooms(
         balls, options.probeIn, space, {options.neck, leastPocket / voxelVolume}, below, progress);
