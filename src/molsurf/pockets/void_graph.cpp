@@ -41,6 +41,43 @@ constexpr double notFree = -unbounded;
 /// A place touches a ball if the clearance is off by no more than this [Å].
 constexpr double tangent = 1e-9;
 
+/// What lies between the outermost centres along 13 directions: those of the faces, edges and
+/// corners of a cube. Beside it d grows on the way straight from it.
+class Slabs
+{
+public:
+    explicit Slabs(const std::vector<Ball>& balls)
+    {
+        for (int x = -1; x <= 1; ++x)
+            for (int y = -1; y <= 1; ++y)
+                for (int z = -1; z <= 1; ++z)
+                    if (9 * x + 3 * y + z > 0) slabs_.push_back({Vec3d(x, y, z)});
+        for (Slab& slab : slabs_)
+            for (const Ball& ball : balls) {
+                const double at = ball.center.dot(slab.way);
+                slab.low = std::min(slab.low, at);
+                slab.high = std::max(slab.high, at);
+            }
+    }
+
+    /// Whether a ball touches the molecule from beside it, where it only gets farther from it.
+    bool isFar(const Vec3d& x, double clearance) const
+    {
+        if (clearance <= mostOutside) return false;
+        return std::any_of(slabs_.begin(), slabs_.end(), [&](const Slab& slab) {
+            const double at = x.dot(slab.way);
+            return at < slab.low || at > slab.high;
+        });
+    }
+
+private:
+    struct Slab {
+        Vec3d way;
+        double low = unbounded, high = -unbounded;
+    };
+    std::vector<Slab> slabs_;
+};
+
 struct HashOfBalls {
     template<std::size_t N>
     std::size_t operator()(const std::array<std::int32_t, N>& balls) const
@@ -88,10 +125,9 @@ class Tracer
 {
 public:
     Tracer(VoidGraph& graph, const Progress& progress)
-        : graph_(graph), balls_(graph.balls), index_(balls_, {1.0, 0.0, 3.0}), progress_(progress)
+        : graph_(graph), balls_(graph.balls), index_(balls_, {1.0, 0.0, 3.0}), progress_(progress),
+          slabs_(balls_)
     {
-        for (const Ball& ball : balls_) box_.expand(ball.center);
-        farthest_ = std::min(box_.extents().length(), mostOutside);
         graph_.nodes.push_back({Vec3d(0.0), unbounded, {noBall, noBall, noBall, noBall}});
         done_.push_back(0xff);
         next_.push_back(noBall);
@@ -137,12 +173,6 @@ private:
     std::optional<VoidCurve> curveOf(const Triple& balls) const
     {
         return VoidCurve::ofThree(ball(balls[0]), ball(balls[1]), ball(balls[2]));
-    }
-
-    /// Whether nothing more comes beyond a place on the way up.
-    bool isFar(const Vec3d& x, double clearance) const
-    {
-        return clearance > farthest_ && !box_.isInside(x);
     }
 
     /// Balls near a place: all that are within clearance + slack.
@@ -225,7 +255,7 @@ private:
             const double middle = 0.5 * (low + high);
             (isCovered(curve.at(middle, from.side), middle) ? low : high) = middle;
         }
-        known = isFar(curve.at(low, from.side), low);
+        known = slabs_.isFar(curve.at(low, from.side), low);
         return {Stop::What::Outside, low, from.side, noBall, passed};
     }
 
@@ -393,6 +423,7 @@ private:
     {
         const VoidGraph::Node node = graph_.nodes[std::size_t(n)];
         if (node.balls[3] == noBall) return leaveTop(n);
+        if (slabs_.isFar(node.place, node.clearance)) return;
         look(node.place, node.clearance, 1.0 + 0.3 * std::max(node.clearance, 0.0));
         if (!isFree(node)) {
             graph_.nodes[std::size_t(n)].clearance = notFree;
@@ -583,8 +614,7 @@ private:
     const std::vector<Ball>& balls_;
     BallIndex index_;
     const Progress& progress_;
-    openvdb::BBoxd box_; // of the centres
-    double farthest_;    // a larger ball touches the molecule from beside it [Å]
+    Slabs slabs_;
     Near near_;
     std::unordered_map<Quad, std::int32_t, HashOfBalls> nodes_; // the last one of four balls
     std::vector<std::int32_t> next_;                            // one of the same balls, or none
@@ -620,11 +650,14 @@ void joinOutside(VoidGraph& graph)
 {
     openvdb::BBoxd box;
     for (const Ball& ball : graph.balls) box.expand(ball.center);
+    const Slabs slabs(graph.balls);
     std::vector<std::int32_t> numbers(graph.nodes.size(), VoidGraph::outside);
     std::int32_t count = 1;
     for (std::size_t n = 1; n < numbers.size(); ++n) {
         if (graph.nodes[n].clearance == notFree) numbers[n] = VoidGraph::none;
-        if (numbers[n] == VoidGraph::none || !box.isInside(graph.nodes[n].place)) continue;
+        const auto& [place, clearance, own] = graph.nodes[n];
+        if (numbers[n] == VoidGraph::none || !box.isInside(place) || slabs.isFar(place, clearance))
+            continue;
         graph.nodes[std::size_t(count)] = graph.nodes[n];
         numbers[n] = count++;
     }
