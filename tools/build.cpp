@@ -365,7 +365,21 @@ std::string poreLine(const Report::Pore& pore)
     std::string line = formatted("pore: %s %.3f Å at (%.2f, %.2f, %.2f), length %.1f Å",
                                  least.radius < 0.0 ? "closed, radius" : "narrowest", least.radius,
                                  least.place[0], least.place[1], least.place[2], pore.length());
-    if (least.radius > 0.0) line += formatted(", conductance %.3g pS", pore.conductance());
+    if (const auto conductance = pore.conductance())
+        line += formatted(", conductance %.3g pS", *conductance);
+    else
+        line += formatted(", no water passes below %g Å", Report::Pore::leastWater);
+    line += formatted("; along (%.3f, %.3f, %.3f) it crosses %.0f %% of the molecule", pore.axis[0],
+                      pore.axis[1], pore.axis[2], 100.0 * pore.crossed);
+    if (!pore.bundle.empty())
+        line += "; " + counted(pore.bundle.size() + 1, "pore", "pores") + " as wide within 5 %";
+    if (!pore.others.empty()) {
+        const auto& other = pore.others.front();
+        line += formatted("; %s: %.3f Å at (%.2f, %.2f, %.2f)%s",
+                          counted(pore.others.size(), "other way", "other ways").c_str(),
+                          other.radius, other.place[0], other.place[1], other.place[2],
+                          pore.others.size() > 1 ? ", ..." : "");
+    }
     return line;
 }
 

@@ -420,7 +420,6 @@ private:
             if (share_.isAsked()) share_.add(result);
             for (auto& [output, file] : areas_) {
                 Table rows = areaTable(output.format->table, call_, balls, result);
-                if (ofPore(output)) rows.note.clear(); // it is of one frame
                 appendCsv(rows, source_.number(i), i == 0, *file);
             }
         };

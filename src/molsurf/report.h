@@ -180,7 +180,6 @@ struct Table {
     std::string name; ///< "atoms", "residues", "contacts", "interfaces", "pockets",
                       ///< "pore" or "forces"
     std::vector<Column> columns;
-    std::string note{}; ///< what all rows have in common; "": nothing
 };
 
 /// The whole report.
@@ -274,6 +273,7 @@ struct Report {
                 double area = 0.0; ///< [Å^2]
                 double radius =
                     0.0; ///< of the largest ball that gets out of the widest place there [Å]
+                std::array<double, 3> place = {}; ///< where that just passes [Å]
             };
             /// A ball that has a part of the pocket's wall.
             struct Lining {
@@ -300,10 +300,12 @@ struct Report {
         /// A row for every pocket that was found, the largest first: pocket (its number from 1),
         /// volume, area, depth_A, radius_A (of the largest ball in it), x_A, y_A, z_A (its middle),
         /// open (1: a way leads out), mouths, mouth_area (of all), mouth_radius_A (of the largest
-        /// ball that gets out), neighbours (numbers of pockets beyond necks), hydrophobicity (mean
-        /// over the wall, of Kyte and Doolittle), charge (of side chains, +1 of Lys and Arg, -1 of
-        /// Asp and Glu), atoms (how many line it), residues and atom_ids (which). Without names of
-        /// the atoms what needs these is empty.
+        /// ball that gets out), mouth_x_A, mouth_y_A, mouth_z_A (where it just passes), neighbours
+        /// (numbers of pockets beyond necks), hydrophobicity (mean over the wall, of Kyte and
+        /// Doolittle), charge (of side chains, +1 of Lys and Arg, -1 of Asp and Glu), atoms (how
+        /// many line it), residues and atom_ids (which), and what was asked for: probe_in_A,
+        /// probe_out_A, cut_A, neck and voxel_A. Without names of the atoms what needs these is
+        /// empty.
         /// @param[in] atoms  that they are of
         Table table(const BallSet& atoms) const;
     };
@@ -324,20 +326,34 @@ struct Report {
 
         std::array<double, 3> axis = {}; ///< from end to end, a unit vector
         std::vector<Station> stations{}; ///< from end to end
+        double crossed = 0.0;            ///< share of the height of the molecule along the axis
+        std::vector<Pore> bundle{};      ///< further ways along the axis that are as wide, within
+                                         ///< 5 %: the other pores of an oligomer
+        /// A way along the axis that is narrower.
+        struct Way {
+            double radius = 0.0;              ///< of its narrowest place [Å]
+            std::array<double, 3> place = {}; ///< that [Å]
+        };
+        std::vector<Way> others{}; ///< those that water passes, the widest first
 
         double length() const { return stations.back().distance; }
         double narrowest() const; ///< the least radius [Å]
         /// Of a bath of bulkResistivity by Ohm's rule, with steps of Station::distance, without
-        /// what leads to the ends; 0 where it is closed [pS].
-        double conductance() const;
-        /// A row for every section: distance_A, height_A (along the axis), x_A, y_A, z_A, radius_A,
-        /// bottleneck (1 or 0), residues and atom_ids (within 1 Å, the nearest first).
+        /// what leads to the ends [pS]; none where it is narrower than leastWater, since no water
+        /// passes there.
+        std::optional<double> conductance() const;
+        /// A row for every section of it and of its bundle: distance_A, height_A (along the axis),
+        /// x_A, y_A, z_A, radius_A, bottleneck (1 or 0), residues and atom_ids (within 1 Å, the
+        /// nearest first), pore (its number from 1), and of that length_A, conductance_pS and
+        /// resistivity_ohm_m.
         /// @param[in] atoms  that it is of
         Table table(const BallSet& atoms) const;
 
         /// Of 1 M KCl at 25 °C, the demal solution of Jones and Bradshaw, J. Am. Chem. Soc.
         /// 55:1780-1800, 1933: 0.11134 S/cm [Ω m].
         static constexpr double bulkResistivity = 0.0898;
+        /// Radius of a water molecule: nothing narrower lets it pass, as in HOLE [Å].
+        static constexpr double leastWater = 1.15;
     };
 
     std::string program = "vdb_molsurf";

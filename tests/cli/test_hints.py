@@ -381,7 +381,7 @@ CASES = {
     "pockets/find_pore.cpp": [
         ("its ends, as --pore 'X,Y,Z -> X,Y,Z'", "vdb_molsurf 1grm.pdb.gz --pore x -o a.pore.csv",
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv"),
-        ("ends where atoms are on all sides", "vdb_molsurf 1grm.pdb.gz --pore '22,-12,3 -> 22,12,3' -o a.pore.csv",
+        ("ends where atoms are on all sides, or in front of the mouths", "vdb_molsurf 1grm.pdb.gz --pore '22,-12,3 -> 22,12,3' -o a.pore.csv",
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv")],
     "surface/pockets.cpp": [
         ("--voxel 0.7", "vdb_molsurf 1crn.pdb --voxel 1 -o a.pockets.csv", "vdb_molsurf 1crn.pdb --voxel 0.7 -o b.pockets.csv"),

@@ -3,6 +3,7 @@
 
 import csv
 import json
+import math
 import re
 import subprocess
 import unittest
@@ -23,9 +24,9 @@ print(max(volumes.values(), default=0.0))
 
 class Pockets(ToolTest):
     def table(self, name):
-        """The note, and the rows."""
-        note, *lines = (self.folder / name).read_text().splitlines()
-        return note, list(csv.DictReader(lines))
+        """The rows: the first line has the names of the columns."""
+        with open(self.folder / name, newline="") as file:
+            return list(csv.DictReader(file))
 
     def box(self, name, hole=lambda x: max(map(abs, x)) < 4):
         """Balls of 1.5 Å, an Å apart, with a hole."""
@@ -36,8 +37,9 @@ class Pockets(ToolTest):
     def test_a_closed_cavity_has_the_volume_of_the_report(self):
         self.box("box.xyzr")
         self.check(0, "box.xyzr", "--surface", "ses", "-o", "box.pockets.csv", "-o", "box.json")
-        note, rows = self.table("box.pockets.csv")
-        self.assertEqual(note, "# pockets: probe in 1.4, probe out 4, cut 2.4, voxel 0.5 A; neck 0.55")
+        rows = self.table("box.pockets.csv")
+        asked = {"probe_in_A": "1.4", "probe_out_A": "4", "cut_A": "2.4", "neck": "0.55", "voxel_A": "0.5"}
+        self.assertEqual(list(rows[0].items())[-5:], list(asked.items()))
         report = json.loads((self.folder / "box.json").read_text())
         self.assertEqual(len(rows), 1)
         self.assertEqual((rows[0]["open"], rows[0]["mouths"], rows[0]["residues"]), ("0", "0", ""))
@@ -74,7 +76,7 @@ class Pockets(ToolTest):
         self.box("two.xyzr", lambda x: max(abs(abs(x[0]) - 3.5), abs(x[1]), abs(x[2])) < 2.6)
         self.check(0, "two.xyzr", "--surface", "ses", "--color", "pocket", "--voxel", "0.6", "-o", "two.ply", "-o", "two.png",
                       "-o", "two.html", "-o", "two.pockets.csv", "--opacity", "0.3", "--all-walls", "--size", "200")
-        rows = self.table("two.pockets.csv")[1]
+        rows = self.table("two.pockets.csv")
         self.assertEqual(len(rows), 2)
         names, vertices, _ = read_ply((self.folder / "two.ply").read_bytes())
         at = names.index("pocket")
@@ -121,7 +123,7 @@ class Pockets(ToolTest):
     def test_each_has_a_mesh(self):
         """Of the volume of the table, those that are split at a neck, too; other formats hold the same."""
         self.check(0, DATA / "bpti.pdb.gz", "--pocket-cut", "0.5", "-o", "b.pockets.ply", "-o", "b.pockets.csv")
-        rows = self.table("b.pockets.csv")[1]
+        rows = self.table("b.pockets.csv")
         found = self.bodies("b")
         self.assertEqual(len(found), len(rows))
         self.assertTrue(any(row["neighbours"] for row in rows))
@@ -155,7 +157,7 @@ class Pockets(ToolTest):
         self.box("box.xyzr")
         words = ["box.xyzr", "--surface", "ses", "--voxel", "0.7", "--opacity", "0.3", "--show", "pockets", "--pocket-cut", "1"]
         self.check(0, *words, "--size", "200", "--style", "flat", "-o", "a.png", "-o", "a.html", "-o", "a.pockets.csv")
-        rows = self.table("a.pockets.csv")[1]
+        rows = self.table("a.pockets.csv")
         width, lines = read_png((self.folder / "a.png").read_bytes())
         pixels = [tuple(line[3 * x:3 * x + 3]) for line in lines for x in range(width)]
         blue = sum(p[2] > p[0] + 40 for p in pixels[:]) / len(pixels)
@@ -182,12 +184,12 @@ class Pockets(ToolTest):
 
     def test_a_table_without_pockets_is_empty(self):
         self.check(0, CRAMBIN, "--probe-in", 3, "--voxel", 1, "-o", "none.pockets.csv", says=["pockets: 0"])
-        self.assertEqual(self.table("none.pockets.csv")[1], [])
+        self.assertEqual(self.table("none.pockets.csv"), [])
 
     def test_lining_is_named(self):
         self.check(0, DATA / "4at1.ent.gz", "--select", "chain A", "--voxel", "0.7", "--pocket-cut", "0",
                       "-o", "a.pockets.csv")
-        rows = self.table("a.pockets.csv")[1]
+        rows = self.table("a.pockets.csv")
         volumes = [float(row["volume"]) for row in rows]
         self.assertEqual(volumes, sorted(volumes, reverse=True))
         first = rows[0]
@@ -206,12 +208,12 @@ class Pockets(ToolTest):
 
     def test_places(self):
         self.check(0, DIMER, "--pocket-cut", 0, "-o", "all.pockets.csv")
-        row = self.table("all.pockets.csv")[1][1]
+        row = self.table("all.pockets.csv")[1]
         residue = row["residues"].split()[0].split("/")[1][3:]
         self.check(0, DIMER, "--pocket-cut", 0, "--pocket-at", f"resid {residue}", "-o", "one.pockets.csv")
-        rows = self.table("one.pockets.csv")[1]
+        rows = self.table("one.pockets.csv")
         self.assertEqual(len(rows), 1)
-        self.assertIn(float(rows[0]["volume"]), [float(r["volume"]) for r in self.table("all.pockets.csv")[1]])
+        self.assertIn(float(rows[0]["volume"]), [float(r["volume"]) for r in self.table("all.pockets.csv")])
         for places, status, text in (("resn XYZ", 2, "--pocket-at"), ("resid 5", 1, "no pocket is within 4 Å")):
             self.check(status, CRAMBIN, "--probe-in", 3, "--pocket-at", places, "-o", "bad.pockets.csv", says=[text])
             self.assertFalse((self.folder / "bad.pockets.csv").exists())
@@ -230,11 +232,26 @@ class Pockets(ToolTest):
         (self.folder / "two.pdb").write_text(text + "END\n")
         self.check(0, "two.pdb", "--frames", "all", "--voxel", "0.7", "--pocket-at", f"resid {13 * 13 * 2 + 13 * 6 + 6}",
                       "-o", "two.pockets.csv")
-        lines = (self.folder / "two.pockets.csv").read_text().splitlines()
-        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        rows = self.table("two.pockets.csv")
         self.assertEqual([row["frame"] for row in rows], ["1", "2"])
         self.assertGreater(float(rows[0]["volume"]), 50.0)
         self.assertEqual(float(rows[1]["volume"]), 0.0)
+
+    def test_mouths_have_a_place(self):
+        """A ring in the tunnel from a chamber: its ball, whatever the voxels."""
+        hole = lambda x: max(map(abs, x)) < 4.5 or (x[0] > 0 and x[1] ** 2 + x[2] ** 2 < 16)
+        self.box("ring.xyzr", hole)
+        with open(self.folder / "ring.xyzr", "a") as file:
+            for k in range(12):
+                file.write(f"5.13 {3.6 * math.cos(k * math.pi / 6)} {3.6 * math.sin(k * math.pi / 6)} 1.5\n")
+        for voxel in (0.4, 0.6):
+            self.check(0, "ring.xyzr", "--voxel", voxel, "--pocket-neck", "0", "--pocket-cut", 1, "-o", "ring.pockets.csv", "-o", "ring.json", "--force")
+            row = self.table("ring.pockets.csv")[0]
+            self.assertAlmostEqual(float(row["mouth_radius_A"]), 2.1, delta=1e-5)
+            for axis, place in zip("xyz", (5.13, 0, 0)):
+                self.assertAlmostEqual(float(row[f"mouth_{axis}_A"]), place, delta=1e-3)
+            mouth = json.loads((self.folder / "ring.json").read_text())["pockets"]["list"][0]["mouths"][0]
+            self.assertAlmostEqual(mouth["center"][0], 5.13, delta=1e-3)
 
     def test_bad_values(self):
         for words, text in ((("--probe-out", 1), "--probe-out: expected more than --probe-in"),
@@ -251,7 +268,7 @@ class Pockets(ToolTest):
         done = subprocess.run([KVFINDER_PYTHON, "-c", DETECT, str(self.folder / "closed.xyzr")], check=True,
                               capture_output=True, text=True)
         exact = json.loads((self.folder / "closed.json").read_text())["surface"]["cavity_list"][0]["volume"]
-        own = sum(float(row["volume"]) for row in self.table("own.pockets.csv")[1])
+        own = sum(float(row["volume"]) for row in self.table("own.pockets.csv"))
         self.assertLess(abs(own - exact), abs(float(done.stdout.split()[-1]) - exact))
 
 

@@ -20,15 +20,18 @@ class Pores(ToolTest):
         (self.folder / "hole.radii").write_text("C 1.85\nN 1.75\nO 1.65\nS 2.0\nH 1.0\n")
 
     def table(self, name):
-        note, *lines = (self.folder / name).read_text().splitlines()
-        return note, list(csv.DictReader(lines))
+        """The rows: the first line has the names of the columns."""
+        with open(self.folder / name, newline="") as file:
+            return list(csv.DictReader(file))
 
     def test_gramicidin_is_as_wide_as_hole_says(self):
         self.check(0, GRAMICIDIN, "--radii", "hole.radii", "--pore", ENDS, "-o", "a.pore.csv", "-o", "a.json",
                       "-o", "a.pore.svg", "-o", "a.pore.png", "-o", "a.pore.ply", "-o", "a.pore.glb", "--surface", "ses",
                       says=["pore: narrowest 1.200 Å"])
-        note, rows = self.table("a.pore.csv")
-        self.assertTrue(note.startswith("# pore: narrowest 1.19"), note)
+        rows = self.table("a.pore.csv")
+        self.assertEqual(list(rows[0])[:6], ["distance_A", "height_A", "x_A", "y_A", "z_A", "radius_A"])
+        self.assertEqual(list(rows[0])[-4:], ["pore", "length_A", "conductance_pS", "resistivity_ohm_m"])
+        self.assertEqual({row["pore"] for row in rows}, {"1"})
         radii = [float(row["radius_A"]) for row in rows]
         self.assertAlmostEqual(min(radii), 1.1996, delta=0.0005)
         narrowest = rows[radii.index(min(radii))]
@@ -42,6 +45,8 @@ class Pores(ToolTest):
         each = [1 / (math.pi * r * r) for r in radii]
         sum_ = sum((b - a) * (f + g) / 2 for a, b, f, g in zip(places, places[1:], each, each[1:]))
         self.assertAlmostEqual(report["conductance"], 1e12 / (0.0898 * sum_ * 1e10), places=6)
+        self.assertAlmostEqual(float(rows[0]["conductance_pS"]), report["conductance"], places=6)
+        self.assertEqual(float(rows[0]["length_A"]), places[-1])
         names, vertices, triangles = read_ply((self.folder / "a.pore.ply").read_bytes())
         self.assertIn("radius", names)
         edges = {(t[k], t[k - 1]) for t in triangles for k in range(3)}
@@ -52,10 +57,33 @@ class Pores(ToolTest):
     def test_it_is_found_by_itself_and_along_an_axis(self):
         for way in ((), ("--pore", "auto"), ("--pore", "y")):
             self.check(0, GRAMICIDIN, "--radii", "hole.radii", *way, "-o", "b.pore.csv", "--force")
-            rows = self.table("b.pore.csv")[1]
+            rows = self.table("b.pore.csv")
             self.assertAlmostEqual(min(float(row["radius_A"]) for row in rows), 1.1996, delta=0.0005)
         for row in rows:
             self.assertAlmostEqual(float(row["height_A"]), float(row["y_A"]), places=6)
+
+    def test_all_pores_of_a_bundle_are_rows(self):
+        """Three tubes side by side, one of them narrower: two pores and another way."""
+        balls = []
+        for x0, radius in ((-11, 4.3), (0, 4.3), (11, 3.9)):
+            balls += [(x0 + radius * math.cos(k * math.pi / 6), radius * math.sin(k * math.pi / 6), z)
+                      for z in range(-6, 7, 2) for k in range(12)]
+        (self.folder / "three.xyzr").write_text("".join(f"{x} {y} {z} 2.35\n" for x, y, z in balls))
+        self.check(0, "three.xyzr", "--pore", "z", "-o", "three.pore.csv", "-o", "three.json", "-o", "three.pore.ply",
+                   says=["2 pores as wide within 5 %", "1 other way: 1.550 Å at (11.00", "along (0.000, 0.000, 1.000) it crosses"])
+        rows = self.table("three.pore.csv")
+        for number in ("1", "2"):
+            own = [row for row in rows if row["pore"] == number]
+            self.assertAlmostEqual(min(float(row["radius_A"]) for row in own), 1.95, places=6)
+            self.assertEqual(float(own[0]["distance_A"]), 0)
+        self.assertEqual({row["pore"] for row in rows}, {"1", "2"})
+        report = json.loads((self.folder / "three.json").read_text())["pore"]
+        self.assertEqual(len(report["bundle"]), 1)
+        self.assertAlmostEqual(report["others"][0]["radius"], 1.55, places=5)
+        self.assertGreater(report["crossed"], 0.6)
+        _, _, triangles = read_ply((self.folder / "three.pore.ply").read_bytes())
+        edges = {(t[k], t[k - 1]) for t in triangles for k in range(3)}
+        self.assertEqual(edges, {(b, a) for a, b in edges})
 
     def test_threads_do_not_matter(self):
         for threads in (1, 2):
@@ -67,11 +95,13 @@ class Pores(ToolTest):
         for name, plug in (("open", ()), ("closed", ((0, 0, 0),))):
             (self.folder / f"{name}.xyzr").write_text("".join(f"{x} {y} {z} 2.35\n" for x, y, z in [*rings, *plug]))
             self.check(0, f"{name}.xyzr", "--pore", "0,0,-7 -> 0,0,7", "-o", f"{name}.pore.csv")
-        self.assertAlmostEqual(min(float(row["radius_A"]) for row in self.table("open.pore.csv")[1]), 1.95, places=6)
-        narrowest = min(self.table("closed.pore.csv")[1], key=lambda row: float(row["radius_A"]))
+        self.assertAlmostEqual(min(float(row["radius_A"]) for row in self.table("open.pore.csv")), 1.95, places=6)
+        narrowest = min(self.table("closed.pore.csv"), key=lambda row: float(row["radius_A"]))
         self.assertLess(float(narrowest["radius_A"]), 0)
         self.assertAlmostEqual(float(narrowest["z_A"]), 0, delta=0.3)
-        self.assertIn("conductance 0 pS", self.table("closed.pore.csv")[0])
+        self.assertEqual({row["conductance_pS"] for row in self.table("closed.pore.csv")}, {""})
+        self.check(0, "closed.xyzr", "--pore", "0,0,-7 -> 0,0,7", "-o", "closed.json", says=["no water passes below 1.15 Å"])
+        self.assertIsNone(json.loads((self.folder / "closed.json").read_text())["pore"]["conductance"])
         self.check(0, DATA / "1d3z.pdb.gz", "--frames", "1-2", "--pore", "resid 30 -> resid 50", "-o", "f.pore.csv")
         lines = (self.folder / "f.pore.csv").read_text().splitlines()
         self.assertEqual({line.split(",")[0] for line in lines}, {"frame", "1", "2"})
@@ -89,7 +119,7 @@ class Pores(ToolTest):
         (self.folder / "two.pdb").write_text(text)
         for model, away in ((1, 0), (2, 100)):
             self.check(0, "two.pdb", "--model", model, "--pore", "resid 1 -> resid 7", "-o", "m.pore.csv", "--force")
-            for row in self.table("m.pore.csv")[1]:
+            for row in self.table("m.pore.csv"):
                 self.assertAlmostEqual(float(row["x_A"]), away, delta=0.5)
 
     def test_frames_without_a_pore_have_no_rows(self):
@@ -116,10 +146,10 @@ class Pores(ToolTest):
     def test_what_is_wrong_is_said_in_a_line(self):
         for status, way, text in ((2, "0,0,0", "longer than 0"), (2, "q", "expected auto"), (2, "1,2,3 ->", "both sides of ->"),
                                   (2, "0.5,-9,3 -> 0.5,-9,3", "1 Å apart"), (1, "0,0,0 -> 0,12,3", "inside of atom_id"),
-                                  (2, "resid 999 -> 0,12,3", "resid 999"), (1, "22,-12,3 -> 22,12,3", "leaves it at"),
+                                  (2, "resid 999 -> 0,12,3", "resid 999"), (1, "22,-12,3 -> 22,12,3", "found none that is not outside"),
                                   (1, "100,100,100 -> 105,100,100", "expected ends within 20 Å of the molecule"),
                                   (1, "0,500,3 -> 0,-500,3", "expected ends within 20 Å of the molecule"),
-                                  (1, "16,20,20 -> 21,20,20", "atoms enclose no place of it"),
+                                  (1, "16,20,20 -> 21,20,20", "found none that is not outside"),
                                   (2, "0,0,0 -> 1e9,0,0", "expected X,Y,Z"), (2, "nan,0,0 -> 0,12,3", "expected X,Y,Z"),
                                   (2, "0 0 -12 -> 0 0 12", "expected X,Y,Z"), (2, "1,2 -> 0,12,3", "or a selection, got"),
                                   (1, "x", "found none")):

@@ -67,6 +67,16 @@ std::vector<std::int32_t> enclosingCavities(const BallBoundary& boundary,
     return out;
 }
 
+/// Whether the centre of a probe gets to each piece from outside.
+std::vector<char> passedFromOutside(const BallBoundary& boundary, const BoundaryMeasure& measure)
+{
+    const std::vector<std::int32_t> cavityOf = enclosingCavities(boundary, measure);
+    std::vector<char> out;
+    for (std::size_t p = 0; p < measure.pieces.size(); ++p)
+        out.push_back(measure.pieces[p].outer && cavityOf[p] < 0);
+    return out;
+}
+
 /// Whether probes reach each piece from outside: a cavity's probes that overlap those of a piece
 /// outside wash one void with them. Nearest places of two pieces are corners, since patches and
 /// arcs bulge into voids.
@@ -119,11 +129,13 @@ double largestVoid(const BallBoundary& boundary, const BoundaryMeasure& measure,
 
 } // namespace
 
-OuterDepth::OuterDepth(const std::vector<Ball>& balls, double probe, const Progress& progress)
+OuterDepth::OuterDepth(const std::vector<Ball>& balls, double probe, Reach reach,
+                       const Progress& progress)
     : boundary_(ballBoundary(balls, probe, progress)),
       measure_(measureBoundary(boundary_, progress)), probe_(probe)
 {
-    std::vector<char> kept = reachedFromOutside(boundary_, measure_, probe);
+    std::vector<char> kept = reach == Reach::Washed ? reachedFromOutside(boundary_, measure_, probe)
+                                                    : passedFromOutside(boundary_, measure_);
     open_ = std::make_unique<BoundaryPoints>(boundary_, measure_, kept);
     if (std::all_of(kept.begin(), kept.end(), [](char k) { return k != 0; })) return;
     for (char& k : kept) k = k ? 0 : 1;
@@ -147,7 +159,7 @@ std::vector<double> depthsOf(const std::vector<Ball>& balls, double probe,
                              const std::vector<openvdb::Vec3d>& points, const Progress& progress)
 {
     constexpr double typical = 2.0; // depth of an atom at the surface [Å]
-    const OuterDepth depth(balls, probe, progress);
+    const OuterDepth depth(balls, probe, OuterDepth::Reach::Washed, progress);
     std::vector<double> out(points.size());
     parallelFor(points.size(), progress, [&](std::size_t i) {
         out[i] = std::max(depth.at(points[i], false, probe + typical).value, 0.0);

@@ -21,9 +21,16 @@ namespace molsurf
 class OuterDepth
 {
 public:
+    /// What a probe reaches from outside.
+    enum class Reach {
+        Washed, ///< also voids whose probes overlap with those outside: they wash one void, so that
+                ///< atoms there are not below a wall
+        Passed  ///< only where its centre gets
+    };
+
     /// @param[in] balls  at least one, every one finite
     /// @param[in] probe  [Å]
-    OuterDepth(const std::vector<Ball>& balls, double probe, const Progress& progress);
+    OuterDepth(const std::vector<Ball>& balls, double probe, Reach reach, const Progress& progress);
 
     /// A depth.
     struct Depth {

@@ -154,7 +154,8 @@ Json pocketJson(const Report::Pockets::Pocket& pocket)
 {
     Json mouths = Json::array();
     for (const Report::Pockets::Pocket::Mouth& mouth : pocket.mouths)
-        mouths.push_back(Json{{"area", mouth.area}, {"radius", mouth.radius}});
+        mouths.push_back(
+            Json{{"area", mouth.area}, {"radius", mouth.radius}, {"center", mouth.place}});
     return {{"volume", pocket.volume},     {"area", pocket.area},
             {"depth", pocket.depth},       {"radius", pocket.radius},
             {"center", pocket.centre},     {"open", pocket.open},
@@ -170,7 +171,8 @@ Json pocketsJson(const Report::Pockets& pockets)
             {"voxel", pockets.voxel},      {"list", std::move(list)}};
 }
 
-Json poreJson(const Report::Pore& pore)
+/// A pore without the others of its bundle.
+Json onePoreJson(const Report::Pore& pore)
 {
     Json necks = Json::array(), distances = necks, radii = necks, centers = necks;
     for (const Report::Pore::Station& s : pore.stations) {
@@ -181,16 +183,29 @@ Json poreJson(const Report::Pore& pore)
             necks.push_back(
                 Json{{"center", s.place}, {"distance", s.distance}, {"radius", s.radius}});
     }
+    const std::optional<double> conductance = pore.conductance();
     return {{"axis", pore.axis},
+            {"crossed", pore.crossed},
             {"length", pore.length()},
             {"radius", pore.narrowest()},
-            {"conductance", pore.conductance()},
+            {"conductance", conductance ? Json(*conductance) : Json()},
             {"resistivity", Report::Pore::bulkResistivity},
             {"bottlenecks", std::move(necks)},
             {"profile",
              {{"distance", std::move(distances)},
               {"radius", std::move(radii)},
               {"center", std::move(centers)}}}};
+}
+
+Json poreJson(const Report::Pore& pore)
+{
+    Json out = onePoreJson(pore), bundle = Json::array(), others = bundle;
+    for (const Report::Pore& other : pore.bundle) bundle.push_back(onePoreJson(other));
+    for (const Report::Pore::Way& way : pore.others)
+        others.push_back(Json{{"radius", way.radius}, {"center", way.place}});
+    out["bundle"] = std::move(bundle);
+    out["others"] = std::move(others);
+    return out;
 }
 
 Json partsJson(const std::vector<Report::Part>& parts)

@@ -33,7 +33,6 @@ void writeRows(const Table& table, const char* title, const std::string& lead, O
 {
     std::string text;
     if (title) {
-        if (!table.note.empty()) text += "# " + table.note + "\n";
         text += title;
         for (const Table::Column& column : table.columns)
             text += (&column == &table.columns.front() ? "" : ",") + csvCell(column.name);

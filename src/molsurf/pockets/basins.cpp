@@ -130,6 +130,135 @@ void joinSmall(const std::vector<std::size_t>& sizes, double leastVoxels, Parts&
     }
 }
 
+/// Gives the parts that voxels are in numbers, in the order of the parts, and lists their peaks and
+/// necks.
+/// @param[in,out] basins  of voxels their parts, then the numbers of these
+void number(Parts& parts, const std::vector<VoxelPlace>& order, Basins& basins)
+{
+    const auto at = [&](VoxelPlace place) -> std::int32_t& {
+        return basins.of.leaf(place / leafSize)[place % leafSize];
+    };
+    std::vector<char> isUsed(parts.size(), 0);
+    for (const VoxelPlace place : order) isUsed[std::size_t(parts.find(at(place)))] = 1;
+    std::vector<std::int32_t> numbers(parts.size(), -1);
+    for (std::size_t p = 0; p < numbers.size(); ++p) {
+        const std::int32_t root = parts.find(std::int32_t(p));
+        if (!isUsed[std::size_t(root)]) continue;
+        auto& number = numbers[std::size_t(root)];
+        if (number < 0) {
+            number = std::int32_t(basins.peaks.size());
+            basins.peaks.push_back(parts.peak(root));
+        }
+        numbers[p] = number;
+    }
+    for (const VoxelPlace place : order) at(place) = numbers[std::size_t(at(place))];
+    for (const auto& [pair, clearance] : parts.necks()) {
+        const auto [a, b] =
+            std::minmax(numbers[std::size_t(pair.first)], numbers[std::size_t(pair.second)]);
+        if (a >= 0) basins.necks.push_back({{a, b}, clearance});
+    }
+}
+
+/// The first of the widest voxels of each basin.
+std::vector<openvdb::Vec3d> peakPlaces(const VoidField& space, const Basins& basins)
+{
+    std::vector<openvdb::Vec3d> out(basins.count());
+    std::vector<char> isFound(basins.count(), 0);
+    for (std::size_t n = 0; n < space.table.size(); ++n)
+        space.table.active(n).forEach([&](int v) {
+            const auto b = std::size_t(basins.of.leaf(n)[v]);
+            if (isFound[b] || space.clearance.leaf(n)[v] < basins.peaks[b]) return;
+            isFound[b] = 1;
+            out[b] = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
+                     space.voxelSize;
+        });
+    return out;
+}
+
+/// The rooms of a graph below the cut and the basins of voxels that no such room is the top of, as
+/// parts in the order of falling peaks, and where they meet.
+struct RoomParts {
+    /// Where two parts meet.
+    struct Meeting {
+        float clearance;       ///< [Å]
+        std::int32_t parts[2]; ///< ascending
+    };
+    std::vector<float> peaks;      ///< of each part [Å]
+    std::vector<std::int32_t> of;  ///< of each basin its part
+    std::vector<Meeting> meetings; ///< the widest first
+
+    /// @param[in] basins  their peaks are the starts of the graph
+    RoomParts(const VoidField& space, const VoidGraph& graph, const Rooms& rooms,
+              const Basins& basins, const BelowCut& below)
+    {
+        const auto isBelow = [&](const openvdb::Vec3d& x, double d) {
+            return basinAbout(space, basins, x) >= 0 && below(x, d) > 0.0;
+        };
+        std::vector<std::pair<float, std::int32_t>> tops; // minus the peak; a room or -1 - a basin
+        std::vector<std::int32_t> partOf(rooms.nodes.size(), -1);
+        std::vector<char> isIn(rooms.nodes.size(), 0);
+        for (std::size_t r = 1; r < rooms.nodes.size(); ++r) {
+            const VoidGraph::Node& node = graph.nodes[std::size_t(rooms.nodes[r])];
+            isIn[r] = isBelow(node.place, node.clearance);
+            if (isIn[r]) tops.emplace_back(-float(node.clearance), std::int32_t(r));
+        }
+        // The room that the way up from a basin's peak leads to without leaving what is below the
+        // cut, or 0.
+        std::vector<std::int32_t> highest(basins.count(), 0);
+        for (std::size_t b = 0; b < basins.count(); ++b) {
+            std::int32_t n = graph.starts[b];
+            if (n == VoidGraph::none || !isIn[std::size_t(rooms.of[std::size_t(n)])]) continue;
+            bool stays = true;
+            while (stays && rooms.up[std::size_t(n)] != VoidGraph::none) {
+                const auto& ends = graph.edges[std::size_t(rooms.up[std::size_t(n)])].nodes;
+                n = ends[ends[0] == n ? 1 : 0];
+                const VoidGraph::Node& node = graph.nodes[std::size_t(n)];
+                stays = isBelow(node.place, node.clearance);
+            }
+            if (stays) highest[b] = rooms.of[std::size_t(n)];
+        }
+        const auto roomOf = [&](std::size_t basin) { return highest[basin]; };
+        for (std::size_t b = 0; b < basins.count(); ++b)
+            if (roomOf(b) == 0) tops.emplace_back(-basins.peaks[b], -1 - std::int32_t(b));
+        std::sort(tops.begin(), tops.end());
+        of.assign(basins.count(), -1);
+        for (const auto& [peak, top] : tops) {
+            auto& part = top < 0 ? of[std::size_t(-1 - top)] : partOf[std::size_t(top)];
+            part = std::int32_t(peaks.size());
+            peaks.push_back(-peak);
+        }
+        for (std::size_t b = 0; b < basins.count(); ++b)
+            if (const std::int32_t room = roomOf(b)) of[b] = partOf[std::size_t(room)];
+        for (const std::int32_t e : rooms.passages) {
+            const VoidGraph::Edge& edge = graph.edges[std::size_t(e)];
+            const std::int32_t a = partOf[std::size_t(rooms.of[std::size_t(edge.nodes[0])])],
+                               b = partOf[std::size_t(rooms.of[std::size_t(edge.nodes[1])])];
+            if (a >= 0 && b >= 0 && isBelow(edge.narrowest, edge.clearance))
+                add(float(edge.clearance), a, b);
+        }
+        // What the graph does not join the probe does not pass, if it leads from room to room.
+        for (const Neck& neck : basins.necks) {
+            const std::int32_t a = of[std::size_t(neck.basins[0])],
+                               b = of[std::size_t(neck.basins[1])];
+            const bool joinsRooms = roomOf(std::size_t(neck.basins[0])) != 0 &&
+                                    roomOf(std::size_t(neck.basins[1])) != 0;
+            if (a != b)
+                add(joinsRooms ? std::min(neck.clearance, float(graph.floor)) : neck.clearance, a,
+                    b);
+        }
+        std::sort(meetings.begin(), meetings.end(), [](const Meeting& a, const Meeting& b) {
+            if (a.clearance != b.clearance) return a.clearance > b.clearance;
+            return std::pair(a.parts[0], a.parts[1]) < std::pair(b.parts[0], b.parts[1]);
+        });
+    }
+
+private:
+    void add(float clearance, std::int32_t a, std::int32_t b)
+    {
+        meetings.push_back({clearance, {std::min(a, b), std::max(a, b)}});
+    }
+};
+
 } // namespace
 
 Basins splitAtNecks(const VoidField& space, double share, double leastVoxels)
@@ -168,23 +297,54 @@ Basins splitAtNecks(const VoidField& space, double share, double leastVoxels)
         });
     }
     joinSmall(sizes, leastVoxels, parts);
+    number(parts, order, out);
+    return out;
+}
 
-    std::vector<std::int32_t> numbers(parts.size(), -1);
-    for (std::size_t p = 0; p < numbers.size(); ++p) {
-        const std::int32_t root = parts.find(std::int32_t(p));
-        auto& number = numbers[std::size_t(root)];
-        if (number < 0) {
-            number = std::int32_t(out.peaks.size());
-            out.peaks.push_back(parts.peak(root));
-        }
-        numbers[p] = number;
+std::int32_t basinAbout(const VoidField& space, const Basins& basins, const openvdb::Vec3d& x)
+{
+    const openvdb::Vec3d at = x / space.voxelSize;
+    const openvdb::Coord low = openvdb::Coord::floor(at);
+    double least = std::numeric_limits<double>::infinity();
+    std::int32_t best = -1;
+    for (int k = 0; k < 8; ++k) {
+        const openvdb::Coord voxel = low.offsetBy(k >> 2, k >> 1 & 1, k & 1);
+        const std::int32_t leaf = space.table.find(voxel);
+        if (leaf < 0) continue;
+        const std::int32_t basin = basins.of.leaf(
+            std::size_t(leaf))[(voxel[0] & 7) << 6 | (voxel[1] & 7) << 3 | (voxel[2] & 7)];
+        const double square = (voxel.asVec3d() - at).lengthSqr();
+        if (basin < 0 || square >= least) continue;
+        least = square;
+        best = basin;
     }
-    for (const VoxelPlace place : order) at(place) = numbers[std::size_t(at(place))];
-    for (const auto& [pair, clearance] : parts.necks()) {
-        const auto [a, b] =
-            std::minmax(numbers[std::size_t(pair.first)], numbers[std::size_t(pair.second)]);
-        out.necks.push_back({{a, b}, clearance});
+    return best;
+}
+
+RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const VoidField& space,
+                        const SplitRule& rule, const BelowCut& below, const Progress& progress)
+{
+    RoomBasins out{splitAtNecks(space, 1.0, 0.0), {}}; // every maximum of the voxels
+    out.graph = voidGraph(balls, probe, peakPlaces(space, out.basins), progress);
+    const Rooms rooms = roomsOf(out.graph);
+    const RoomParts found(space, out.graph, rooms, out.basins, below);
+    Parts parts(rule.share);
+    for (const float peak : found.peaks) parts.add(peak);
+    for (const RoomParts::Meeting& meeting : found.meetings) {
+        const std::int32_t a = parts.find(meeting.parts[0]), b = parts.find(meeting.parts[1]);
+        if (a != b) parts.meet(a, b, meeting.clearance);
     }
+    std::vector<std::size_t> sizes(parts.size(), 0);
+    const std::vector<VoxelPlace> order = fallingVoxels(space);
+    for (const VoxelPlace place : order) {
+        std::int32_t& basin = out.basins.of.leaf(place / leafSize)[place % leafSize];
+        basin = found.of[std::size_t(basin)];
+        ++sizes[std::size_t(basin)];
+    }
+    joinSmall(sizes, rule.leastVoxels, parts);
+    out.basins.peaks.clear();
+    out.basins.necks.clear();
+    number(parts, order, out.basins);
     return out;
 }
 

@@ -7,6 +7,7 @@
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/pockets/clearance.h"
 #include "molsurf/pockets/measure_basins.h"
+#include "molsurf/pockets/mouth_ways.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,16 +50,6 @@ std::vector<std::vector<PocketReport::Lining>> liningsOf(const std::vector<Ball>
     return out;
 }
 
-/// The radius of the largest ball that gets to a mouth: exactly, where it is a neck between balls
-/// that it just passes, and not the mouth itself.
-double passingRadius(const BasinMeasure::Mouth& mouth, const Clearance& clearance, double voxelSize)
-{
-    const double most = 0.87 * voxelSize; // half of the diagonal, which the clearance is off by
-    const auto neck = clearance.neckNear(mouth.narrowest, most, mouth.radius + most);
-    const bool between = neck && neck->radius > mouth.radius - 0.25 * voxelSize; // two voxels
-    return between ? neck->radius : mouth.radius;
-}
-
 /// Some directions, evenly on a sphere.
 std::vector<openvdb::Vec3d> directions()
 {
@@ -98,17 +89,32 @@ double largestBall(const openvdb::Vec3d& widest, double voxelSize, const Clearan
 }
 
 /// The report of a basin by its own measures.
-PocketReport pocketOf(const BasinMeasure& basin, const OuterDepth& outer,
-                      const std::function<double(const BasinMeasure::Mouth&)>& passing)
+PocketReport pocketOf(const BasinMeasure& basin, const OuterDepth& outer)
 {
     PocketReport out;
     out.volume = basin.volume;
     out.area = basin.area;
     out.depth = outer.at(basin.deepest, false, pocketDepth).value;
     for (int k = 0; k < 3; ++k) out.centre[std::size_t(k)] = basin.moment[k] / basin.volume;
-    for (const BasinMeasure::Mouth& mouth : basin.mouths)
-        out.mouths.push_back({mouth.area, passing(mouth)});
-    std::stable_sort(out.mouths.begin(), out.mouths.end(),
+    return out;
+}
+
+/// The mouths of a pocket, the largest first. Where nothing on the way is narrower than the place
+/// where it begins the largest ball of the pocket gets out.
+/// @param[in] ways  to each mouth; where the graph has none, those of the voxels count
+std::vector<PocketReport::Mouth> mouthsOf(const BasinMeasure& basin,
+                                          const std::vector<MouthWay>& ways, double largest)
+{
+    std::vector<PocketReport::Mouth> out;
+    for (std::size_t m = 0; m < basin.mouths.size(); ++m) {
+        const BasinMeasure::Mouth& mouth = basin.mouths[m];
+        const bool known = ways[m].radius >= 0.0;
+        const openvdb::Vec3d& place = known ? ways[m].place : mouth.narrowest;
+        double radius = known ? ways[m].radius : mouth.radius;
+        if (known && !ways[m].isNarrower) radius = largest;
+        out.push_back({mouth.area, radius, {place[0], place[1], place[2]}});
+    }
+    std::stable_sort(out.begin(), out.end(),
                      [](const auto& a, const auto& b) { return a.area > b.area; });
     return out;
 }
@@ -130,7 +136,7 @@ void removeBlindMouths(const std::vector<Ball>& balls, double probe,
     };
     using Mouth = BasinMeasure::Mouth;
     if (!remove([=](const Mouth& mouth) { return mouth.widest < least; })) return;
-    const OuterDepth depth(balls, probe, progress);
+    const OuterDepth depth(balls, probe, OuterDepth::Reach::Passed, progress);
     if (depth.hasVoids())
         remove([&](const Mouth& mouth) { return !depth.isOutside(mouth.widestPlace, probe); });
 }
@@ -329,7 +335,13 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
 {
     const VoidField space = voidField(balls, options, voxelSize, progress);
     const double voxelVolume = voxelSize * voxelSize * voxelSize;
-    const Basins basins = splitAtNecks(space, options.neck, leastPocket / voxelVolume);
+    const double nearCut = options.probeOut + options.cut + 1.0; // a guess, as pocketDepth [Å]
+    const BelowCut below = [&](const openvdb::Vec3d& x, double room) {
+        return space.outer->at(x, room >= options.probeOut, nearCut).value - options.cut;
+    };
+    const RoomBasins split = splitAtRooms(
+        balls, options.probeIn, space, {options.neck, leastPocket / voxelVolume}, below, progress);
+    const Basins& basins = split.basins;
     std::vector<BasinMeasure> measures = measureBasins(space, basins, progress);
     removeBlindMouths(balls, options.probeIn, measures, progress);
     const std::vector<char> isOpen = opened(basins, measures);
@@ -338,25 +350,23 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
         liningsOf(balls, measures, 2.0 * options.probeIn + voxelSize, progress);
     const BallIndex index(balls, {1.0, options.probeIn, 1.0});
     const Clearance clearance(balls);
-    const auto passing = [&](const BasinMeasure::Mouth& mouth) {
-        return passingRadius(mouth, clearance, voxelSize);
-    };
-    const auto isWithin = [&](const openvdb::Vec3d& x) {
-        const bool hasRoom = clearance.at(x) >= options.probeOut;
-        return space.outer->at(x, hasRoom, pocketDepth).value >= options.cut;
-    };
+    const auto isWithin = [&](const openvdb::Vec3d& x) { return below(x, clearance.at(x)) >= 0.0; };
+    const std::vector<std::vector<MouthWay>> ways =
+        mouthWays(space, split, measures, below, progress);
     std::vector<char> hasNeck(basins.count(), 0);
     for (const Neck& neck : basins.necks)
         for (const std::int32_t basin : neck.basins) hasNeck[std::size_t(basin)] = 1;
     std::vector<FoundPocket> found;
     for (std::size_t b = 0; b < basins.count(); ++b) {
-        PocketReport pocket = pocketOf(measures[b], *space.outer, passing);
+        PocketReport pocket = pocketOf(measures[b], *space.outer);
         pocket.open = isOpen[b];
+        pocket.mouths.resize(measures[b].mouths.size());
         pocket.lining = std::move(linings[b]);
         if (measures[b].mouths.empty() && !hasNeck[b])
             takeExact(index, options.probeIn, measures[b], progress, pocket);
         if (pocket.volume < leastPocket) continue;
         pocket.radius = largestBall(measures[b].widest, voxelSize, clearance, isWithin);
+        pocket.mouths = mouthsOf(measures[b], ways[b], pocket.radius);
         found.emplace_back(std::move(pocket), b);
     }
     std::stable_sort(found.begin(), found.end(),

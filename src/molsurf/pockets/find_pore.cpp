@@ -5,13 +5,14 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/words.h"
 #include "molsurf/pockets/clearance.h"
-#include "molsurf/pockets/pore_grid.h"
-#include "molsurf/pockets/pore_path.h"
+#include "molsurf/pockets/pore_ways.h"
+#include "molsurf/pockets/void_graph.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace molsurf
@@ -22,16 +23,6 @@ namespace
 
 using openvdb::Vec3d;
 using Pore = Report::Pore;
-
-/// Points of the lattice are so far apart, or farther where there would be too many [Å].
-constexpr double finest = 0.3, coarse = 0.5;
-constexpr double mostCells = 2e7; // 350 MB with what the search needs
-
-/// Walls that enclose a pore between given ends are no farther from its axis than this [Å].
-constexpr double widest = 40.0;
-
-/// A place is near an end within this, or this share of the way [Å].
-constexpr double nearEnd = 10.0, nearShare = 0.3;
 
 /// Points of a section are so far apart where it is searched [Å]. Each stands for what is within
 /// `reach` of it, which is searched exactly.
@@ -55,50 +46,11 @@ struct Way {
     std::vector<double> passed;    ///< along the tangents, without what it goes sideways [Å]
 };
 
-/// The extent of a lattice along an axis that holds all balls.
-PoreGrid::Extent extentOf(const std::vector<Ball>& balls, const Vec3d& axis, double spacing)
-{
-    const auto frame = PoreGrid::frameOf(axis);
-    PoreGrid::Extent out{axis, Vec3d(1e30), Vec3d(-1e30), spacing};
-    for (const Ball& ball : balls)
-        for (int i = 0; i < 3; ++i) {
-            const double at = ball.center.dot(frame[std::size_t(i)]);
-            out.low[i] = std::min(out.low[i], at - ball.radius);
-            out.high[i] = std::max(out.high[i], at + ball.radius);
-        }
-    return out;
-}
-
-void limitCells(PoreGrid::Extent& extent)
-{
-    const Vec3d size = extent.high - extent.low;
-    extent.spacing = std::max(extent.spacing, std::cbrt(size[0] * size[1] * size[2] / mostCells));
-}
-
 /// Ends that are known, and the axis.
 struct Ends {
     Vec3d from, to, axis;
     bool alongAxis = false; ///< whether sections are at right angles to it wherever the way goes
 };
-
-/// The lattice between two ends.
-PoreGrid gridBetween(const std::vector<Ball>& balls, const Ends& ends, const Progress& progress)
-{
-    constexpr double beyond = 3.0; // the ends, along the axis [Å]
-    const auto frame = PoreGrid::frameOf(ends.axis);
-    PoreGrid::Extent extent = extentOf(balls, ends.axis, finest);
-    for (int i = 0; i < 3; ++i) {
-        const double a = ends.from.dot(frame[std::size_t(i)]);
-        const double b = ends.to.dot(frame[std::size_t(i)]);
-        const double margin = i == 2 ? beyond : widest;
-        extent.low[i] =
-            std::min(std::max(extent.low[i], std::min(a, b) - margin), std::min(a, b) - beyond);
-        extent.high[i] =
-            std::max(std::min(extent.high[i], std::max(a, b) + margin), std::max(a, b) + beyond);
-    }
-    limitCells(extent);
-    return PoreGrid(balls, extent, progress);
-}
 
 /// The principal axes of the centres, the longest first.
 std::vector<Vec3d> principalAxes(const std::vector<Ball>& balls)
@@ -121,36 +73,6 @@ std::vector<Vec3d> principalAxes(const std::vector<Ball>& balls)
     std::vector<Vec3d> out;
     for (const auto& one : sorted) out.push_back(one.second);
     return out;
-}
-
-/// The ends of the widest way through the molecule, along an axis or one of the principal ones.
-Ends endsThrough(const std::vector<Ball>& balls, const Vec3d& axis, const Progress& progress)
-{
-    const bool given = axis.lengthSqr() > 0.0;
-    const std::vector<Vec3d> axes = given ? std::vector<Vec3d>{axis} : principalAxes(balls);
-    std::optional<Ends> best;
-    constexpr double beyond = 2.0; // the molecule, where nothing is enclosed [Å]
-    double least = 0.5;            // share of the height that a way may lack
-    for (const Vec3d& along : axes) {
-        PoreGrid::Extent extent = extentOf(balls, along, coarse);
-        const double height = extent.high[2] - extent.low[2];
-        extent.low[2] -= beyond;
-        extent.high[2] += beyond;
-        limitCells(extent);
-        const PoreGrid grid(balls, extent, progress);
-        const auto path = throughPath(grid, progress);
-        constexpr double shortest = 0.4; // share of the height, of a way through
-        if (!path || path->cost - 2.0 * beyond >= least * height ||
-            grid.height(path->cells.back()) - grid.height(path->cells.front()) < shortest * height)
-            continue;
-        least = (path->cost - 2.0 * beyond) / height;
-        best = Ends{grid.place(path->cells.front()), grid.place(path->cells.back()), along, true};
-    }
-    if (best) return *best;
-    const std::string where = given ? "along this axis" : "along a principal axis";
-    throw Error(ErrorKind::Input, "`pore`: expected a way through the molecule " + where +
-                                      ", found none [hint: its ends, as `pore` 'X,Y,Z -> X,Y,Z', "
-                                      "find closed ones, too]");
 }
 
 /// The place of an end: that itself if no ball holds it; else, of those within 5 Å, the one with
@@ -188,10 +110,7 @@ Vec3d placeOf(const BallSet::PoreWay::End& end, const std::vector<Ball>& balls,
 /// @throws Error(ErrorKind::Input) if an end is far from the balls
 void checkNear(const Vec3d& end, const std::vector<Ball>& balls)
 {
-    // Nothing encloses a way beyond the box, which is refused there when it is found, after a
-    // search that takes the longer the farther the ends are.
-    // measured: 1grm.pdb.gz --pore '0,D,3 -> 0,-D,3' takes 1.3 s for D = 20, 18 s for 50
-    constexpr double farthest = nearEnd + 10.0; // from the box of the balls [Å]
+    constexpr double farthest = 20.0; // from the box of the balls: what is beyond is no pore [Å]
     const openvdb::BBoxd box = boxOf(balls);
     Vec3d away;
     for (int i = 0; i < 3; ++i) away[i] = end[i] - std::clamp(end[i], box.min()[i], box.max()[i]);
@@ -200,17 +119,6 @@ void checkNear(const Vec3d& end, const std::vector<Ball>& balls)
                     formatted("`pore`: expected ends within %g Å of the molecule, got %s, %.1f Å "
                               "away",
                               farthest, placeText(end).c_str(), away.length()));
-}
-
-Ends endsOf(const BallSet::PoreWay& way, const std::vector<Ball>& balls, const Clearance& clearance,
-            const Progress& progress)
-{
-    if (way.ends.empty()) return endsThrough(balls, way.axis, progress);
-    for (const BallSet::PoreWay::End& end : way.ends) checkNear(end.place, balls);
-    Ends ends = {placeOf(way.ends[0], balls, clearance), placeOf(way.ends[1], balls, clearance),
-                 Vec3d(0.0)};
-    ends.axis = (ends.to - ends.from).unit();
-    return ends;
 }
 
 /// Cosine of the angle by which a way that follows a direction may turn away from it.
@@ -307,6 +215,9 @@ std::vector<Plane> sectionsOf(const std::vector<Vec3d>& points, const Ends& ends
     const double begin = straight ? points.front().dot(axis) : 0.0;
     const double end = straight ? points.back().dot(axis) : way.passed.back();
     for (double at = begin; at < end + 1e-6; at += stationSpacing) {
+        // Where the way comes to a height more than once its narrowest place there counts, since
+        // the whole way is passed; else that with the most room.
+        const double sign = straight ? -1.0 : 1.0;
         double most = -std::numeric_limits<double>::infinity();
         std::optional<Plane> best;
         for (std::size_t i = 1; i < points.size(); ++i) {
@@ -316,7 +227,7 @@ std::vector<Plane> sectionsOf(const std::vector<Vec3d>& points, const Ends& ends
             const double share = b == a ? 0.0 : std::clamp((at - a) / (b - a), 0.0, 1.0);
             const std::vector<Vec3d>& on = straight ? points : way.places;
             const Vec3d x = on[i - 1] + (on[i] - on[i - 1]) * share;
-            const double room = clearance.at(x);
+            const double room = sign * clearance.at(x);
             if (room <= most) continue;
             most = room;
             best.emplace(x, straight ? axis : way.tangents[i]);
@@ -330,14 +241,15 @@ std::vector<Plane> sectionsOf(const std::vector<Vec3d>& points, const Ends& ends
 class SectionSearch
 {
 public:
-    SectionSearch(const Clearance& clearance, const PoreGrid& grid, const Plane& plane)
-        : clearance_(clearance), grid_(grid), plane_(plane)
+    SectionSearch(const Clearance& clearance, const Plane& plane)
+        : clearance_(clearance), plane_(plane)
     {
     }
 
     /// The largest ball that the origin of the plane can go to within it without passing where it
     /// is much narrower: hill climbing to a peak, flood fill down to `level` from there, and the
-    /// exact search about each point that may beat the best.
+    /// exact search about each point that may beat the best. That at the origin if it gets away
+    /// from all balls so.
     FittedBall widest()
     {
         constexpr double narrower = 0.5; // [Å]
@@ -352,8 +264,9 @@ public:
                     climbs = true;
                 }
         }
-        const double level = std::max(own - 0.5 * grid_.spacing(), room(at) - narrower);
-        std::vector<std::pair<double, Point>> part = partAbove(level, at);
+        std::vector<std::pair<double, Point>> part =
+            partAbove(std::max(own, room(at) - narrower), at);
+        if (isOpen_) return {plane_.origin, own};
         FittedBall best{plane_.at(part.front().second.first * sectionSpacing,
                                   part.front().second.second * sectionSpacing),
                         part.front().first};
@@ -369,6 +282,9 @@ public:
         return best;
     }
 
+    /// Whether it got away from all balls.
+    bool isOpen() const { return isOpen_; }
+
 private:
     using Point = std::pair<int, int>;
 
@@ -381,18 +297,15 @@ private:
         return out;
     }
 
-    /// Its clearance; without bound below where the search does not go: far away, and farther than
-    /// a little outside of what is enclosed.
+    /// Its clearance; without bound below where the search does not go, which is far away.
     double room(const Point& at)
     {
         const auto [found, isNew] = rooms_.emplace(at, 0.0);
         if (!isNew) return found->second;
-        const Vec3d x = plane_.at(at.first * sectionSpacing, at.second * sectionSpacing);
-        constexpr int little = int(1.0 / sectionSpacing);
-        const bool allowed = std::max(std::abs(at.first), std::abs(at.second)) <= little ||
-                             (grid_.covers(x) && grid_.isEnclosed(grid_.nearest(x)));
         const bool far = std::abs(at.first) > limit_ || std::abs(at.second) > limit_;
-        found->second = allowed && !far ? clearance_.at(x) : -1e30;
+        found->second =
+            far ? -1e30
+                : clearance_.at(plane_.at(at.first * sectionSpacing, at.second * sectionSpacing));
         return found->second;
     }
 
@@ -406,6 +319,7 @@ private:
             const Point at = open.back();
             open.pop_back();
             out.emplace_back(room(at), at);
+            isOpen_ = isOpen_ || std::max(std::abs(at.first), std::abs(at.second)) >= limit_;
             for (const Point& next : around(at))
                 if (room(next) >= level && seen.emplace(next, true).second) open.push_back(next);
         }
@@ -416,9 +330,9 @@ private:
     }
 
     const Clearance& clearance_;
-    const PoreGrid& grid_;
     const Plane& plane_;
     int limit_ = 1;
+    bool isOpen_ = false;
     std::map<Point, double> rooms_;
 };
 
@@ -495,47 +409,121 @@ void addNecks(const Clearance& clearance, std::vector<Pore::Station>& stations)
     }
 }
 
-/// @throws Error(ErrorKind::Input) if a way is none through the molecule
-void checkEnclosed(const PoreGrid& grid, const PorePath& path)
+/// The ways along an axis.
+struct FoundWays {
+    std::vector<VoidWay> ways;
+    Ends ends;
+};
+
+/// The ways along the axis that has the largest, by sizeOf(): a principal axis, or that of a way
+/// from the outside to the outside if it is twice as large. A molecule without symmetry need not
+/// have its pore along a principal axis.
+FoundWays waysAlongBest(const VoidGraph& graph, const Rooms& rooms, const std::vector<Vec3d>& axes)
 {
-    constexpr double mostOutside = 2.0; // [Å]
-    const std::string expected = "`pore`: expected a way through the molecule between these ends, ";
-    const std::string hint = " [hint: ends where atoms are on all sides]";
-    if (path.outside > mostOutside)
-        throw Error(ErrorKind::Input, expected + "but the widest leaves it at " +
-                                          placeText(grid.place(path.leaves)) + hint);
-    const auto isEnclosed = [&](std::size_t cell) { return grid.isEnclosed(cell); };
-    if (std::none_of(path.cells.begin(), path.cells.end(), isEnclosed))
-        throw Error(ErrorKind::Input, expected + "but atoms enclose no place of it" + hint);
+    constexpr std::size_t others = 3;
+    constexpr double advantage = 2.0;
+    FoundWays out;
+    double best = 0.0;
+    const auto tryAxis = [&](const Vec3d& along, double factor) {
+        std::vector<VoidWay> ways = waysThrough(graph, rooms, along, Pore::leastWater);
+        if (ways.empty()) return;
+        const double size = sizeOf(ways.front().clearance, ways.front().length) / factor;
+        if (size <= best) return;
+        best = size;
+        out.ends = {Vec3d(0.0), Vec3d(0.0), along, true};
+        out.ways = std::move(ways);
+    };
+    for (const Vec3d& axis : axes) tryAxis(axis, 1.0);
+    for (const Vec3d& axis : likelyAxes(graph, others)) tryAxis(axis, advantage);
+    return out;
 }
 
-} // namespace
-
-Pore findPore(const std::vector<Ball>& balls, const BallSet::PoreWay& asked,
-              const Progress& progress)
+FoundWays waysAlong(const std::vector<Ball>& balls, const Vec3d& axis, const Progress& progress)
 {
-    const Clearance clearance(balls);
-    const Ends ends = endsOf(asked, balls, clearance, progress);
-    // Ends that are found are enclosed themselves.
-    const double near =
-        asked.ends.empty() ? 0.0 : std::min(nearEnd, nearShare * (ends.to - ends.from).length());
-    const PoreGrid grid = gridBetween(balls, ends, progress);
-    const PorePath path = widestPath(grid, grid.nearest(ends.from), grid.nearest(ends.to),
-                                     {near, ends.alongAxis}, progress);
-    checkEnclosed(grid, path);
+    const bool given = axis.lengthSqr() > 0.0;
+    constexpr double narrow = 0.5; // what is narrower are gaps between atoms that touch [Å]
+    const VoidGraph graph = voidGraph(balls, narrow, {}, progress);
+    const Rooms rooms = roomsOf(graph);
+    FoundWays out;
+    if (given) {
+        out.ways = waysThrough(graph, rooms, axis, Pore::leastWater);
+        out.ends = {Vec3d(0.0), Vec3d(0.0), axis, true};
+    } else {
+        out = waysAlongBest(graph, rooms, principalAxes(balls));
+    }
+    if (!out.ways.empty()) return out;
+    const std::string where = given ? "along this axis" : "along any axis";
+    throw Error(ErrorKind::Input, "`pore`: expected a way through the molecule " + where +
+                                      ", found none [hint: its ends, as `pore` 'X,Y,Z -> X,Y,Z', "
+                                      "find closed ones, too]");
+}
+
+/// The way between two ends, the graph being made as far below 0 as it needs.
+FoundWays waysBetweenEnds(const std::vector<Ball>& balls, const std::array<Vec3d, 2>& ends,
+                          const Progress& progress)
+{
+    constexpr double step = 0.5; // [Å]
+    double least = std::numeric_limits<double>::infinity();
+    for (const Ball& ball : balls) least = std::min(least, ball.radius);
+    FoundWays out{{}, {ends[0], ends[1], (ends[1] - ends[0]).unit(), false}};
+    // Between ends in clefts of the outside it is a way along these.
+    for (const bool alongClefts : {false, true})
+        for (double floor = 0.0; floor > -least; floor -= step) {
+            const VoidGraph graph = voidGraph(balls, floor, {ends[0], ends[1]}, progress);
+            out.ways = waysBetween(graph, alongClefts ? everyNode(graph) : roomsOf(graph), ends);
+            if (!out.ways.empty()) return out;
+        }
+    throw Error(ErrorKind::Input, "`pore`: expected a way through the molecule from " +
+                                      placeText(ends[0]) + " to " + placeText(ends[1]) +
+                                      ", found none that is not outside [hint: ends where atoms "
+                                      "are on all sides, or in front of the mouths]");
+}
+
+/// Adds the narrowest place of a way if no station is as narrow: the way may cross a section there
+/// at an angle.
+void addNarrowest(const Clearance& clearance, const VoidWay& way, std::vector<Pore::Station>& to)
+{
+    if (!std::isfinite(way.clearance)) return;
+    const auto neck = clearance.neckNear(way.narrowest, 1e-3, way.clearance + 1e-3);
+    const FittedBall ball = neck ? *neck : FittedBall{way.narrowest, way.clearance};
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        if (to[i].radius <= ball.radius + 1e-6) return;
+        if ((placeOf(to[i]) - ball.place).length() < (placeOf(to[nearest]) - ball.place).length())
+            nearest = i;
+    }
+    Pore::Station station = stationOf(ball, normalOf(to[nearest]));
+    const bool after = (ball.place - placeOf(to[nearest])).dot(normalOf(to[nearest])) > 0.0;
+    to.insert(to.begin() + std::ptrdiff_t(nearest + after), station);
+}
+
+/// The sections of a way.
+/// @param[in] ends  those of the way; with Ends::alongAxis what opens at both ends is left out
+Pore poreOf(const Clearance& clearance, const VoidWay& way, const Ends& ends,
+            const Progress& progress)
+{
     std::vector<Vec3d> points;
-    for (const std::size_t cell : path.cells) points.push_back(grid.place(cell));
-    points.front() = ends.from;
-    points.back() = ends.to;
+    for (const VoidPoint& point : way.points) points.push_back(point.place);
     const std::vector<Plane> planes = sectionsOf(points, ends, clearance);
-    Pore out;
-    for (std::size_t i = 0; i < 3; ++i) out.axis[i] = ends.axis[int(i)];
-    out.stations.resize(planes.size());
+    std::vector<Pore::Station> stations(planes.size());
+    std::vector<char> open(planes.size(), 0);
     parallelFor(planes.size(), progress, [&](std::size_t i) {
-        SectionSearch search(clearance, grid, planes[i]);
-        out.stations[i] = stationOf(search.widest(), planes[i].normal);
+        SectionSearch search(clearance, planes[i]);
+        stations[i] = stationOf(search.widest(), planes[i].normal);
+        open[i] = search.isOpen();
     });
-    addNecks(clearance, out.stations);
+    const auto isClosed = [](char o) { return o == 0; };
+    if (ends.alongAxis && std::any_of(open.begin(), open.end(), isClosed)) {
+        const auto first = std::find(open.begin(), open.end(), 0) - open.begin(),
+                   last = std::find(open.rbegin(), open.rend(), 0) - open.rbegin();
+        stations.erase(stations.end() - last, stations.end());
+        stations.erase(stations.begin(), stations.begin() + first);
+    }
+    addNarrowest(clearance, way, stations);
+    addNecks(clearance, stations);
+    Pore out;
+    out.stations = std::move(stations);
+    for (std::size_t i = 0; i < 3; ++i) out.axis[i] = ends.axis[int(i)];
     for (std::size_t i = 0; i < out.stations.size(); ++i) {
         Pore::Station& station = out.stations[i];
         if (i > 0) {
@@ -548,6 +536,52 @@ Pore findPore(const std::vector<Ball>& balls, const BallSet::PoreWay& asked,
         }
         for (const std::int32_t ball : clearance.nearest(placeOf(station), liningReach))
             station.lining.push_back(std::size_t(ball));
+    }
+    return out;
+}
+
+/// The share of the height of the molecule along the axis between the ends of a pore.
+double crossedBy(const std::vector<Ball>& balls, const Pore& pore)
+{
+    const Vec3d axis(pore.axis[0], pore.axis[1], pore.axis[2]);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Ball& ball : balls) {
+        low = std::min(low, ball.center.dot(axis) - ball.radius);
+        high = std::max(high, ball.center.dot(axis) + ball.radius);
+    }
+    const double from = placeOf(pore.stations.front()).dot(axis),
+                 to = placeOf(pore.stations.back()).dot(axis);
+    return std::clamp((std::min(to, high) - std::max(from, low)) / (high - low), 0.0, 1.0);
+}
+
+} // namespace
+
+Pore findPore(const std::vector<Ball>& balls, const BallSet::PoreWay& asked,
+              const Progress& progress)
+{
+    const Clearance clearance(balls);
+    FoundWays found;
+    if (asked.ends.empty()) {
+        found = waysAlong(balls, asked.axis, progress);
+    } else {
+        for (const BallSet::PoreWay::End& end : asked.ends) checkNear(end.place, balls);
+        found = waysBetweenEnds(
+            balls,
+            {placeOf(asked.ends[0], balls, clearance), placeOf(asked.ends[1], balls, clearance)},
+            progress);
+    }
+    Pore out = poreOf(clearance, found.ways.front(), found.ends, progress);
+    out.crossed = crossedBy(balls, out);
+    constexpr double asWide = 0.95; // the pores of an oligomer, which are not quite the same
+    for (std::size_t i = 1; i < found.ways.size(); ++i) {
+        const VoidWay& way = found.ways[i];
+        if (way.clearance < asWide * found.ways.front().clearance) {
+            out.others.push_back(
+                {way.clearance, {way.narrowest[0], way.narrowest[1], way.narrowest[2]}});
+            continue;
+        }
+        out.bundle.push_back(poreOf(clearance, way, found.ends, progress));
+        out.bundle.back().crossed = crossedBy(balls, out.bundle.back());
     }
     return out;
 }

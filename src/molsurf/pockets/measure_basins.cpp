@@ -389,9 +389,12 @@ std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& ba
         if (widest[mouth] == Passages::none ||
             passages.clearance(place) > passages.clearance(widest[mouth]))
             widest[mouth] = place;
+    std::vector<std::vector<VoxelPlace>> voxels(mouths.count());
+    for (const auto& [place, mouth] : mouths.voxels()) voxels[mouth].push_back(place);
     for (std::size_t m = 0; m < mouths.count(); ++m) {
         const VoxelPlace narrowest = passages.narrowest(m);
         BasinMeasure::Mouth mouth{mouths.area(m), passages.clearance(widest[m])};
+        mouth.voxels = std::move(voxels[m]);
         mouth.widestPlace = pointOf(space, widest[m]);
         if (narrowest != Passages::none) {
             mouth.radius = passages.clearance(narrowest);

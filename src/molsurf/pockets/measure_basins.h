@@ -25,6 +25,7 @@ struct BasinMeasure {
                              ///< voxels: a little too small [Å]
         openvdb::Vec3d narrowest{0.0};   ///< the voxel where it just passes [Å]
         openvdb::Vec3d widestPlace{0.0}; ///< the voxel beside it with the largest clearance [Å]
+        std::vector<VoxelPlace> voxels;  ///< those beside it
     };
     /// A piece of its wall.
     struct Wall {

@@ -173,7 +173,8 @@ openvdb::CoordBBox leavesAbout(const std::vector<Ball>& balls, double grown, dou
 VoidField voidField(const std::vector<Ball>& balls, const PocketOptions& options, double voxelSize,
                     const Progress& progress)
 {
-    const auto outer = std::make_shared<const OuterDepth>(balls, options.probeOut, progress);
+    const auto outer = std::make_shared<const OuterDepth>(balls, options.probeOut,
+                                                          OuterDepth::Reach::Passed, progress);
     const double rim = 2.0 * voxelSize, high = options.probeOut - options.probeIn + rim;
     const BandWidths width{options.probeIn + rim, high + outer->voidRadius()};
     // No void is outside of the balls, and what else is higher is not looked at.

@@ -77,16 +77,20 @@ class PocketColumns
 public:
     void add(const BallSet& atoms, const Report::Pockets::Pocket& pocket)
     {
-        double mouthArea = 0.0, mouthRadius = pocket.mouths.empty() ? unknown : 0.0;
+        double mouthArea = 0.0, mouthRadius = unknown;
+        std::array<double, 3> mouthPlace = {unknown, unknown, unknown};
         for (const Report::Pockets::Pocket::Mouth& mouth : pocket.mouths) {
             mouthArea += mouth.area;
-            mouthRadius = std::max(mouthRadius, mouth.radius);
+            if (mouth.radius <= mouthRadius) continue;
+            mouthRadius = mouth.radius;
+            mouthPlace = mouth.place;
         }
         const Lining lining = liningOf(atoms, pocket);
-        const std::array<double, 11> row = {
-            pocket.volume,    pocket.area,           pocket.depth,     pocket.radius,
-            pocket.centre[0], pocket.centre[1],      pocket.centre[2], mouthArea,
-            mouthRadius,      lining.hydrophobicity, lining.charge};
+        const std::array<double, 14> row = {
+            pocket.volume,         pocket.area,      pocket.depth,     pocket.radius,
+            pocket.centre[0],      pocket.centre[1], pocket.centre[2], mouthArea,
+            mouthRadius,           mouthPlace[0],    mouthPlace[1],    mouthPlace[2],
+            lining.hydrophobicity, lining.charge};
         for (std::size_t k = 0; k < row.size(); ++k) numbers_[k].push_back(digitsThatHold(row[k]));
         number_.push_back(std::int64_t(number_.size()) + 1);
         open_.push_back(pocket.open);
@@ -112,9 +116,12 @@ public:
         table.columns.push_back({"mouths", std::move(mouths_)});
         numbers("mouth_area", 7);
         numbers("mouth_radius_A", 8);
+        numbers("mouth_x_A", 9);
+        numbers("mouth_y_A", 10);
+        numbers("mouth_z_A", 11);
         table.columns.push_back({"neighbours", std::move(neighbours_)});
-        numbers("hydrophobicity", 9);
-        numbers("charge", 10);
+        numbers("hydrophobicity", 12);
+        numbers("charge", 13);
         table.columns.push_back({"atoms", std::move(atoms_)});
         table.columns.push_back({"residues", std::move(residues_)});
         table.columns.push_back({"atom_ids", std::move(ids_)});
@@ -122,7 +129,7 @@ public:
 
 private:
     std::vector<std::int64_t> number_, open_, mouths_, atoms_;
-    std::array<std::vector<double>, 11> numbers_;
+    std::array<std::vector<double>, 14> numbers_;
     std::vector<std::string> neighbours_, residues_, ids_;
 };
 
@@ -134,9 +141,15 @@ Table Report::Pockets::table(const BallSet& atoms) const
     for (const Pocket& pocket : list) columns.add(atoms, pocket);
     if (!atoms.pocketAt.empty() && list.empty()) columns.add(atoms, {}); // it is closed
     Table table{"pockets", {}};
-    table.note = formatted("pockets: probe in %g, probe out %g, cut %g, voxel %g A; neck %g",
-                           probeIn, probeOut, cut, voxel, neck);
     columns.moveTo(table);
+    const std::size_t rows = std::get<std::vector<std::int64_t>>(table.columns[0].values).size();
+    const std::pair<const char*, double> asked[] = {{"probe_in_A", probeIn},
+                                                    {"probe_out_A", probeOut},
+                                                    {"cut_A", cut},
+                                                    {"neck", neck},
+                                                    {"voxel_A", voxel}};
+    for (const auto& [name, value] : asked)
+        table.columns.push_back({name, std::vector<double>(rows, value)});
     return table;
 }
 

@@ -20,13 +20,16 @@ void addPore(const BallSet& atoms, Progress& progress, Report& report)
     watch.stop("pore");
 }
 
-Mesh poreTube(const Report::Pore& pore)
+namespace
+{
+
+/// Adds the tube of a pore to a mesh.
+void addTube(const Report::Pore& pore, Mesh& mesh)
 {
     constexpr std::uint32_t sides = 32;
     constexpr double thread = 0.05; // radius of the tube where the pore is closed [Å]
     constexpr double fullTurn = 6.283185307179586;
-    Mesh mesh;
-    mesh.scalars.push_back({"radius", {}});
+    const auto base = std::uint32_t(mesh.positions.size());
     const auto add = [&](const openvdb::Vec3d& x, const openvdb::Vec3d& normal, double radius) {
         mesh.positions.emplace_back(x);
         mesh.normals.emplace_back(normal);
@@ -55,7 +58,8 @@ Mesh poreTube(const Report::Pore& pore)
     const std::uint32_t rings = std::uint32_t(pore.stations.size());
     for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {
         for (std::uint32_t k = 0; k < sides; ++k) {
-            const std::uint32_t a = ring * sides + k, b = ring * sides + (k + 1) % sides;
+            const std::uint32_t a = base + ring * sides + k,
+                                b = base + ring * sides + (k + 1) % sides;
             mesh.triangles.push_back({a, b, b + sides});
             mesh.triangles.push_back({a, b + sides, a + sides});
         }
@@ -63,13 +67,23 @@ Mesh poreTube(const Report::Pore& pore)
     for (const bool last : {false, true}) { // the ends: fans of triangles about their middles
         const Report::Pore::Station& end = last ? pore.stations.back() : pore.stations.front();
         const std::uint32_t middle = std::uint32_t(mesh.positions.size());
-        const std::uint32_t first = last ? (rings - 1) * sides : 0;
+        const std::uint32_t first = base + (last ? (rings - 1) * sides : 0);
         add(vectorOf(end.place), vectorOf(end.normal) * (last ? 1.0 : -1.0), end.radius);
         for (std::uint32_t k = 0; k < sides; ++k) {
             const std::uint32_t a = first + k, b = first + (k + 1) % sides;
             mesh.triangles.push_back(last ? std::array{middle, a, b} : std::array{middle, b, a});
         }
     }
+}
+
+} // namespace
+
+Mesh poreTube(const Report::Pore& pore)
+{
+    Mesh mesh;
+    mesh.scalars.push_back({"radius", {}});
+    addTube(pore, mesh);
+    for (const Report::Pore& other : pore.bundle) addTube(other, mesh);
     return mesh;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -17,33 +18,66 @@ double Report::Pore::narrowest() const
     return std::min_element(stations.begin(), stations.end(), narrower)->radius;
 }
 
-double Report::Pore::conductance() const
+std::optional<double> Report::Pore::conductance() const
 {
     constexpr double pi = 3.14159265358979323846;
-    if (narrowest() <= 0.0) return 0.0;
+    if (narrowest() < leastWater) return {};
     double sum = 0.0; // integral of ds / (pi r^2) by the trapezoidal rule [1/Å]
     const auto inverse = [](const Station& s) { return 1.0 / (pi * s.radius * s.radius); };
     for (std::size_t i = 1; i < stations.size(); ++i)
         sum += 0.5 * (inverse(stations[i]) + inverse(stations[i - 1])) *
                (stations[i].distance - stations[i - 1].distance);
     constexpr double perMetre = 1e10, picosiemens = 1e12;
-    return sum > 0.0 ? picosiemens / (bulkResistivity * sum * perMetre) : 0.0;
+    if (!(sum > 0.0)) return {};
+    return picosiemens / (bulkResistivity * sum * perMetre);
 }
 
-Table Report::Pore::table(const BallSet& atoms) const
+namespace
 {
-    constexpr std::array<const char*, 6> names = {"distance_A", "height_A", "x_A",
-                                                  "y_A",        "z_A",      "radius_A"};
-    std::array<std::vector<double>, names.size()> numbers;
-    std::vector<std::int64_t> necks;
-    std::vector<std::string> residues, ids;
-    for (const Station& s : stations) {
-        double height = 0.0;
-        for (std::size_t i = 0; i < 3; ++i) height += axis[i] * s.place[i];
-        const std::array<double, names.size()> row = {s.distance, height,     s.place[0],
-                                                      s.place[1], s.place[2], s.radius};
-        for (std::size_t k = 0; k < row.size(); ++k) numbers[k].push_back(row[k]);
-        necks.push_back(s.isBottleneck);
+
+/// The columns of a table of pores, filled row by row.
+class PoreColumns
+{
+public:
+    void add(const BallSet& atoms, const Report::Pore& pore)
+    {
+        ++pores_;
+        const double nobody = std::numeric_limits<double>::quiet_NaN();
+        const double conductance =
+            pore.stations.empty() ? nobody : pore.conductance().value_or(nobody);
+        for (const Report::Pore::Station& s : pore.stations) {
+            double height = 0.0;
+            for (std::size_t i = 0; i < 3; ++i) height += pore.axis[i] * s.place[i];
+            const std::array<double, 9> row = {
+                s.distance,    height,      s.place[0],
+                s.place[1],    s.place[2],  s.radius,
+                pore.length(), conductance, Report::Pore::bulkResistivity};
+            for (std::size_t k = 0; k < row.size(); ++k) numbers_[k].push_back(row[k]);
+            necks_.push_back(s.isBottleneck);
+            number_.push_back(pores_);
+            addLining(atoms, s);
+        }
+    }
+
+    void moveTo(Table& table)
+    {
+        constexpr std::array<const char*, 9> names = {
+            "distance_A",     "height_A",         "x_A", "y_A", "z_A", "radius_A", "length_A",
+            "conductance_pS", "resistivity_ohm_m"};
+        const auto numbers = [&](std::size_t k) {
+            table.columns.push_back({names[k], std::move(numbers_[k])});
+        };
+        for (std::size_t k = 0; k < 6; ++k) numbers(k);
+        table.columns.push_back({"bottleneck", std::move(necks_)});
+        table.columns.push_back({"residues", std::move(residues_)});
+        table.columns.push_back({"atom_ids", std::move(ids_)});
+        table.columns.push_back({"pore", std::move(number_)});
+        for (std::size_t k = 6; k < 9; ++k) numbers(k);
+    }
+
+private:
+    void addLining(const BallSet& atoms, const Report::Pore::Station& s)
+    {
         std::set<std::int32_t> seen;
         std::string title, places;
         for (const std::size_t ball : s.lining) {
@@ -53,19 +87,25 @@ Table Report::Pore::table(const BallSet& atoms) const
                 atoms.names->residues[std::size_t(atoms.names->residueOf[ball])];
             if (!residue.name.empty()) title += (title.empty() ? "" : " ") + titleOf(residue);
         }
-        residues.push_back(std::move(title));
-        ids.push_back(std::move(places));
+        residues_.push_back(std::move(title));
+        ids_.push_back(std::move(places));
     }
+
+    std::int64_t pores_ = 0;
+    std::array<std::vector<double>, 9> numbers_;
+    std::vector<std::int64_t> necks_, number_;
+    std::vector<std::string> residues_, ids_;
+};
+
+} // namespace
+
+Table Report::Pore::table(const BallSet& atoms) const
+{
+    PoreColumns columns;
+    columns.add(atoms, *this);
+    for (const Pore& pore : bundle) columns.add(atoms, pore);
     Table table{"pore", {}};
-    if (!stations.empty())
-        table.note = formatted("pore: narrowest %.4f A, length %.2f A, conductance %.4g pS at "
-                               "%g ohm m",
-                               narrowest(), length(), conductance(), bulkResistivity);
-    for (std::size_t k = 0; k < names.size(); ++k)
-        table.columns.push_back({names[k], std::move(numbers[k])});
-    table.columns.push_back({"bottleneck", std::move(necks)});
-    table.columns.push_back({"residues", std::move(residues)});
-    table.columns.push_back({"atom_ids", std::move(ids)});
+    columns.moveTo(table);
     return table;
 }
 

@@ -94,6 +94,7 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.pockets->list[0].mouths.resize(1);
     report.pore.emplace().stations.resize(1);
     report.pore->stations[0].isBottleneck = true;
+    report.pore->others.resize(1);
     report.parts.resize(1);
     report.instances.resize(1);
     report.symmetry = Report::Symmetry();

@@ -231,6 +231,29 @@ TEST(FindPockets, AVoidForTheLargeProbeIsOne)
     }
 }
 
+// A chamber behind a window that the large probe does not pass is a pocket, though probes on both
+// sides of the window overlap; a larger large probe does not make it smaller.
+TEST(FindPockets, AChamberBehindAWindowIsOne)
+{
+    auto balls = boxWith(Vec3d(9.0),
+                         [](const Vec3d& x) { return x.length() < 7.3 || inTunnel(x, 4.3, 0.0); });
+    for (int k = 0; k < 12; ++k) {
+        const double angle = M_PI * k / 6.0;
+        balls.push_back({Vec3d(8.0, 4.4 * std::cos(angle), 4.4 * std::sin(angle)), 1.5,
+                         std::int32_t(balls.size())});
+    }
+    double last = 0.0;
+    for (const double probe : {3.2, 4.0, 6.0}) {
+        PocketOptions options;
+        options.probeOut = probe;
+        const auto pockets = pocketsOf(balls, 0.6, options);
+        ASSERT_FALSE(pockets.empty()) << probe;
+        EXPECT_GT(pockets[0].volume, 700.0) << probe;
+        EXPECT_GT(pockets[0].volume, last - 1.0) << probe;
+        last = pockets[0].volume;
+    }
+}
+
 // However wide a void is, its middle is of it.
 TEST(FindPockets, AWideVoidIsWhole)
 {
