@@ -345,6 +345,10 @@ RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const Void
     out.basins.peaks.clear();
     out.basins.necks.clear();
     number(parts, order, out.basins);
+    for (auto place = order.rbegin(); place != order.rend();
+         ++place) // the widest voxel is the last
+        out.basins.peaks[std::size_t(out.basins.of.leaf(*place / leafSize)[*place % leafSize])] =
+            space.clearance.leaf(*place / leafSize)[*place % leafSize];
     return out;
 }
 
