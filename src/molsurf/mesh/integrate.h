@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Integrals over the surface S = 0 of a spline. Formulas: docs/math.md, section 9.
+/// Integrals over the surface S = 0 of a spline. Formulas: docs/adr/0003-interpolating-spline.md.
 
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
