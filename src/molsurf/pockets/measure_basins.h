@@ -23,9 +23,9 @@ struct BasinMeasure {
         double widest = 0.0; ///< the largest clearance of its voxels [Å]
         double radius = 0.0; ///< of the largest ball that gets there from the widest place, by
                              ///< voxels: a little too small [Å]
-        openvdb::Vec3d narrowest{0.0};   ///< the voxel where it just passes [Å]
-        openvdb::Vec3d widestPlace{0.0}; ///< the voxel beside it with the largest clearance [Å]
-        std::vector<VoxelPlace> voxels;  ///< those beside it
+        openvdb::Vec3d narrowest{0.0};    ///< the voxel where it just passes [Å]
+        openvdb::Vec3d widestPlace{0.0};  ///< the voxel beside it with the largest clearance [Å]
+        std::vector<VoxelPlace> voxels{}; ///< those beside it
     };
     /// A piece of its wall.
     struct Wall {

@@ -69,9 +69,8 @@ const Model& chooseModel(const Structure& structure, const SelectOptions& option
         if (model.number == number) return model;
         numbers.push_back(std::to_string(model.number));
     }
-    failInput(structure,
-              "model " + std::to_string(number) + ": expected " +
-                  (numbers.size() > 1 ? "one of " : "the only one, ") + joined(numbers));
+    failInput(structure, "model " + std::to_string(number) + ": expected " +
+                             (numbers.size() > 1 ? "one of " : "the only one, ") + joined(numbers));
 }
 
 /// Narrows a list of atoms step by step, and keeps the count of what each step takes out.

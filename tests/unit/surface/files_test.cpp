@@ -85,7 +85,8 @@ TEST(Files, DrawASurfaceWithItsLegend)
         return errorOf(ErrorKind::Usage, [&] { draw(name, value); });
     };
     EXPECT_HAS(errorWith("size", "15"), "`size`: expected a whole number from 16 to 16384");
-    EXPECT_HAS(errorWith("view", "A/10"), "`view`: expected auto, a direction X,Y,Z, an axis as z or a FILE");
+    EXPECT_HAS(errorWith("view", "A/10"),
+               "`view`: expected auto, a direction X,Y,Z, an axis as z or a FILE");
     EXPECT_HAS(errorWith("sise", "15"), "no option of pictures is named");
 }
 

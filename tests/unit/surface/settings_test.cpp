@@ -134,8 +134,8 @@ TEST(Settings, NameTheMemberOfAWrongValue)
     EXPECT_EQ(messageOf("max-steps", {"1.5"}),
               "`maxSteps`: expected a whole number from 0 to 1000000, got '1.5'");
     EXPECT_EQ(messageOf("fields", {"curvature,mean_curvture"}).find("`fields`: unknown field"), 0u);
-    EXPECT_EQ(messageOf("range", {"2,1"}),
-              "`range`: expected two numbers LOW,HIGH, the first one less, got '2,1' [hint: did you mean 1,2?]");
+    EXPECT_EQ(messageOf("range", {"2,1"}), "`range`: expected two numbers LOW,HIGH, the first one "
+                                           "less, got '2,1' [hint: did you mean 1,2?]");
 }
 
 TEST(Settings, AColorSaysWhatElseItNeeds)
