@@ -15,7 +15,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 UNITS = {"B": 1e-6, "kB": 1e-3, "MB": 1.0, "GB": 1e3}
-APT = re.compile(r"Need to get ([\d.,]+) (\wB|B)(?:/[\d.,]+ \wB)? of archives\.\s+After this operation, ([\d.,]+) (\wB|B) of")
+# "Need to get 2 MB/156 MB": the second one is the whole, without what a cache has.
+APT = re.compile(r"Need to get (?:[\d.,]+ (?:\wB|B)/)?([\d.,]+) (\wB|B) of archives\.\s+After this operation, ([\d.,]+) (\wB|B) of")
 
 
 def loaded(log):
