@@ -175,6 +175,47 @@ std::vector<openvdb::Vec3d> peakPlaces(const VoidField& space, const Basins& bas
     return out;
 }
 
+/// @param[in] order  fallingVoxels()
+Basins splitInOrder(const VoidField& space, const std::vector<VoxelPlace>& order, double share,
+                    double leastVoxels)
+{
+    Basins out;
+    out.of = LeafArray<std::int32_t>(space.table.size());
+    for (std::size_t n = 0; n < space.table.size(); ++n) std::fill_n(out.of.leaf(n), leafSize, -1);
+    const auto at = [&](VoxelPlace place) -> std::int32_t& {
+        return out.of.leaf(place / leafSize)[place % leafSize];
+    };
+    const auto clearanceAt = [&](VoxelPlace place) {
+        return space.clearance.leaf(place / leafSize)[place % leafSize];
+    };
+    Parts parts(share);
+    std::vector<std::size_t> sizes;
+    for (const VoxelPlace place : order) {
+        std::int32_t own = -1;
+        float highest = 0.0f;
+        forEachJoined(space.table, place, [&](VoxelPlace other) {
+            if (at(other) < 0 || clearanceAt(other) <= highest) return;
+            highest = clearanceAt(other);
+            own = at(other);
+        });
+        if (own < 0) {
+            own = parts.add(clearanceAt(place));
+            sizes.push_back(0);
+        }
+        at(place) = own;
+        ++sizes[std::size_t(own)];
+        std::int32_t root = parts.find(own);
+        forEachJoined(space.table, place, [&](VoxelPlace other) {
+            if (at(other) < 0) return;
+            const std::int32_t met = parts.find(at(other));
+            if (met != root) root = parts.meet(root, met, clearanceAt(place));
+        });
+    }
+    joinSmall(sizes, leastVoxels, parts);
+    number(parts, order, out);
+    return out;
+}
+
 /// The rooms of a graph below the cut and the basins of voxels that no such room is the top of, as
 /// parts in the order of falling peaks, and where they meet.
 struct RoomParts {
@@ -204,7 +245,7 @@ struct RoomParts {
         }
         // The room that the way up from a basin's peak leads to without leaving what is below the
         // cut, or 0.
-        std::vector<std::int32_t> highest(basins.count(), 0);
+        std::vector<std::int32_t> roomOf(basins.count(), 0);
         for (std::size_t b = 0; b < basins.count(); ++b) {
             std::int32_t n = graph.starts[b];
             if (n == VoidGraph::none || !isIn[std::size_t(rooms.of[std::size_t(n)])]) continue;
@@ -215,11 +256,10 @@ struct RoomParts {
                 const VoidGraph::Node& node = graph.nodes[std::size_t(n)];
                 stays = isBelow(node.place, node.clearance);
             }
-            if (stays) highest[b] = rooms.of[std::size_t(n)];
+            if (stays) roomOf[b] = rooms.of[std::size_t(n)];
         }
-        const auto roomOf = [&](std::size_t basin) { return highest[basin]; };
         for (std::size_t b = 0; b < basins.count(); ++b)
-            if (roomOf(b) == 0) tops.emplace_back(-basins.peaks[b], -1 - std::int32_t(b));
+            if (roomOf[b] == 0) tops.emplace_back(-basins.peaks[b], -1 - std::int32_t(b));
         std::sort(tops.begin(), tops.end());
         of.assign(basins.count(), -1);
         for (const auto& [peak, top] : tops) {
@@ -228,7 +268,7 @@ struct RoomParts {
             peaks.push_back(-peak);
         }
         for (std::size_t b = 0; b < basins.count(); ++b)
-            if (const std::int32_t room = roomOf(b)) of[b] = partOf[std::size_t(room)];
+            if (const std::int32_t room = roomOf[b]) of[b] = partOf[std::size_t(room)];
         for (const std::int32_t e : rooms.passages) {
             const VoidGraph::Edge& edge = graph.edges[std::size_t(e)];
             const std::int32_t a = partOf[std::size_t(rooms.of[std::size_t(edge.nodes[0])])],
@@ -240,8 +280,8 @@ struct RoomParts {
         for (const Neck& neck : basins.necks) {
             const std::int32_t a = of[std::size_t(neck.basins[0])],
                                b = of[std::size_t(neck.basins[1])];
-            const bool joinsRooms = roomOf(std::size_t(neck.basins[0])) != 0 &&
-                                    roomOf(std::size_t(neck.basins[1])) != 0;
+            const bool joinsRooms = roomOf[std::size_t(neck.basins[0])] != 0 &&
+                                    roomOf[std::size_t(neck.basins[1])] != 0;
             if (a != b)
                 add(joinsRooms ? std::min(neck.clearance, float(graph.floor)) : neck.clearance, a,
                     b);
@@ -263,42 +303,7 @@ private:
 
 Basins splitAtNecks(const VoidField& space, double share, double leastVoxels)
 {
-    Basins out;
-    out.of = LeafArray<std::int32_t>(space.table.size());
-    for (std::size_t n = 0; n < space.table.size(); ++n) std::fill_n(out.of.leaf(n), leafSize, -1);
-    const auto at = [&](VoxelPlace place) -> std::int32_t& {
-        return out.of.leaf(place / leafSize)[place % leafSize];
-    };
-    const auto clearanceAt = [&](VoxelPlace place) {
-        return space.clearance.leaf(place / leafSize)[place % leafSize];
-    };
-    Parts parts(share);
-    std::vector<std::size_t> sizes;
-    const std::vector<VoxelPlace> order = fallingVoxels(space);
-    for (const VoxelPlace place : order) {
-        std::int32_t own = -1;
-        float highest = 0.0f;
-        forEachJoined(space.table, place, [&](VoxelPlace other) {
-            if (at(other) < 0 || clearanceAt(other) <= highest) return;
-            highest = clearanceAt(other);
-            own = at(other);
-        });
-        if (own < 0) {
-            own = parts.add(clearanceAt(place));
-            sizes.push_back(0);
-        }
-        at(place) = own;
-        ++sizes[std::size_t(own)];
-        std::int32_t root = parts.find(own);
-        forEachJoined(space.table, place, [&](VoxelPlace other) {
-            if (at(other) < 0) return;
-            const std::int32_t met = parts.find(at(other));
-            if (met != root) root = parts.meet(root, met, clearanceAt(place));
-        });
-    }
-    joinSmall(sizes, leastVoxels, parts);
-    number(parts, order, out);
-    return out;
+    return splitInOrder(space, fallingVoxels(space), share, leastVoxels);
 }
 
 std::int32_t basinAbout(const VoidField& space, const Basins& basins, const openvdb::Vec3d& x)
@@ -324,7 +329,8 @@ std::int32_t basinAbout(const VoidField& space, const Basins& basins, const open
 RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const VoidField& space,
                         const SplitRule& rule, const BelowCut& below, const Progress& progress)
 {
-    RoomBasins out{splitAtNecks(space, 1.0, 0.0), {}}; // every maximum of the voxels
+    const std::vector<VoxelPlace> order = fallingVoxels(space);
+    RoomBasins out{splitInOrder(space, order, 1.0, 0.0), {}}; // every maximum of the voxels
     out.graph = voidGraph(balls, probe, peakPlaces(space, out.basins), progress);
     const Rooms rooms = roomsOf(out.graph);
     const RoomParts found(space, out.graph, rooms, out.basins, below);
@@ -335,7 +341,6 @@ RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const Void
         if (a != b) parts.meet(a, b, meeting.clearance);
     }
     std::vector<std::size_t> sizes(parts.size(), 0);
-    const std::vector<VoxelPlace> order = fallingVoxels(space);
     for (const VoxelPlace place : order) {
         std::int32_t& basin = out.basins.of.leaf(place / leafSize)[place % leafSize];
         basin = found.of[std::size_t(basin)];
