@@ -56,18 +56,9 @@ Mesh drawnBodies(const Call& call, const BallSet& atoms, const Mesh& bodies, con
             if (std::count(used.begin(), used.end(), color) == 0) break;
             color = pocketColor(++number);
         }
-        const PartRange& part = parts[p];
-        const auto shift = std::uint32_t(drawn.positions.size() - part.firstVertex);
-        drawn.parts.push_back({part.name, drawn.triangles.size()});
-        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
-            drawn.positions.push_back(bodies.positions[v]);
-            drawn.normals.push_back(bodies.normals[v]);
-            drawn.colors.push_back(color);
-        }
-        for (std::size_t t = part.firstTriangle; t < part.triangleEnd; ++t) {
-            const auto& corners = bodies.triangles[t];
-            drawn.triangles.push_back({corners[0] + shift, corners[1] + shift, corners[2] + shift});
-        }
+        appendPart(bodies, parts[p], drawn);
+        std::fill(drawn.colors.end() - std::ptrdiff_t(parts[p].vertexEnd - parts[p].firstVertex),
+                  drawn.colors.end(), color);
     }
     return drawn;
 }

@@ -362,18 +362,11 @@ void writeTube(const Writing& w, OutputFile& file)
 Mesh bodyOf(const Writing& w)
 {
     const Mesh& all = *w.shown.bodies;
-    const PartRange part = partRanges(all, "").at(w.output.pocket - 1);
     Mesh body;
-    for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
-        body.positions.emplace_back(openvdb::Vec3d(all.positions[v]) - originOf(w.call));
-        body.normals.push_back(all.normals[v]);
-        body.colors.push_back(all.colors[v]);
-    }
-    const auto first = std::uint32_t(part.firstVertex);
-    for (std::size_t t = part.firstTriangle; t < part.triangleEnd; ++t) {
-        const auto& corners = all.triangles[t];
-        body.triangles.push_back({corners[0] - first, corners[1] - first, corners[2] - first});
-    }
+    appendPart(all, partRanges(all, "").at(w.output.pocket - 1), body);
+    body.parts.clear();
+    for (openvdb::Vec3f& x : body.positions)
+        x = openvdb::Vec3f(openvdb::Vec3d(x) - originOf(w.call));
     return body;
 }
 

@@ -2,6 +2,7 @@
 #include "molsurf/io/part_ranges.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace molsurf
 {
@@ -23,6 +24,29 @@ std::vector<PartRange> partRanges(const Mesh& mesh, const std::string& name)
         if (range.firstTriangle < range.triangleEnd) ranges.push_back(range);
     }
     return ranges;
+}
+
+void appendPart(const Mesh& mesh, const PartRange& range, Mesh& out)
+{
+    const std::size_t begin = out.positions.size();
+    const auto add = [&](const auto& from, auto& to) {
+        if (from.empty()) return;
+        to.insert(to.end(), from.begin() + std::ptrdiff_t(range.firstVertex),
+                  from.begin() + std::ptrdiff_t(range.vertexEnd));
+    };
+    add(mesh.positions, out.positions);
+    add(mesh.normals, out.normals);
+    add(mesh.colors, out.colors);
+    for (std::size_t i = 0; i < out.scalars.size(); ++i)
+        add(mesh.scalars[i].values, out.scalars[i].values);
+    for (std::size_t i = 0; i < out.labels.size(); ++i)
+        add(mesh.labels[i].values, out.labels[i].values);
+    out.parts.push_back({range.name, out.triangles.size()});
+    for (std::size_t t = range.firstTriangle; t < range.triangleEnd; ++t) {
+        auto& corners = out.triangles.emplace_back(mesh.triangles[t]);
+        for (std::uint32_t& corner : corners)
+            corner = std::uint32_t(corner - range.firstVertex + begin);
+    }
 }
 
 } // namespace molsurf

@@ -23,4 +23,7 @@ struct PartRange {
 /// whole mesh under the name if it has no parts.
 std::vector<PartRange> partRanges(const Mesh& mesh, const std::string& name);
 
+/// Appends a part of a mesh as a part of another, with the values and labels that the other has.
+void appendPart(const Mesh& mesh, const PartRange& range, Mesh& out);
+
 } // namespace molsurf

@@ -69,33 +69,17 @@ void turnVectors(const Instance& motion, std::vector<Attribute<float>>& scalars,
 void addCopy(const Mesh& mesh, const PartRange& range, const Instance& motion, Mesh& out)
 {
     const std::size_t begin = out.positions.size();
-    const auto add = [&](const auto& from, auto& to) {
-        if (from.empty()) return;
-        to.insert(to.end(), from.begin() + std::ptrdiff_t(range.firstVertex),
-                  from.begin() + std::ptrdiff_t(range.vertexEnd));
-    };
     if (begin + range.vertexEnd - range.firstVertex > 0xffffffffu)
         throw Error(ErrorKind::Output, "the mesh of all copies has more vertices than 32 bits "
                                        "count [hint: a larger `voxel`]");
-    add(mesh.positions, out.positions);
-    add(mesh.normals, out.normals);
-    add(mesh.colors, out.colors);
-    for (std::size_t i = 0; i < mesh.scalars.size(); ++i)
-        add(mesh.scalars[i].values, out.scalars[i].values);
-    for (std::size_t i = 0; i < mesh.labels.size(); ++i)
-        add(mesh.labels[i].values, out.labels[i].values);
+    appendPart(mesh, range, out);
+    std::string& name = out.parts.back().name;
+    name += (name.empty() ? "" : " ") + motion.name;
     for (std::size_t v = begin; v < out.positions.size(); ++v)
         out.positions[v] = Vec3f(motion.placed(Vec3d(out.positions[v])));
     for (std::size_t v = begin; v < out.normals.size(); ++v)
         out.normals[v] = Vec3f(motion.turned(Vec3d(out.normals[v])));
     turnVectors(motion, out.scalars, begin, out.positions.size());
-    out.parts.push_back(
-        {range.name.empty() ? motion.name : range.name + " " + motion.name, out.triangles.size()});
-    for (std::size_t t = range.firstTriangle; t < range.triangleEnd; ++t) {
-        auto& corners = out.triangles.emplace_back(mesh.triangles[t]);
-        for (std::uint32_t& corner : corners)
-            corner = std::uint32_t(corner - range.firstVertex + begin);
-    }
 }
 
 } // namespace
