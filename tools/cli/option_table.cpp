@@ -860,11 +860,16 @@ std::vector<OptionGroup> optionGroups(unsigned verb)
     return groups;
 }
 
+bool isCalled(const Option& option, const std::string& name)
+{
+    return option.name == name || (option.letter && name == std::string(1, option.letter));
+}
+
 const Option* findOption(Verb verb, const std::string& name)
 {
     for (const OptionGroup& group : optionTable())
         for (const Option& option : group.options)
-            if ((option.verbs & verb) && option.name == name) return &option;
+            if ((option.verbs & verb) && isCalled(option, name)) return &option;
     return nullptr;
 }
 

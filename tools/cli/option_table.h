@@ -60,7 +60,10 @@ const std::vector<OptionGroup>& optionTable();
 /// those of all verbs.
 std::vector<OptionGroup> optionGroups(unsigned verb);
 
-/// The option of a verb, or null.
+/// Whether a name is that of an option, or its letter.
+bool isCalled(const Option& option, const std::string& name);
+
+/// The option of a verb by its name or letter, or null.
 const Option* findOption(Verb verb, const std::string& name);
 
 /// A file that is read since an option names it.

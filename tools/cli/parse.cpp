@@ -159,7 +159,7 @@ std::string hintOf(Verb verb, const std::string& name, const std::vector<std::st
     for (const OptionGroup& group : optionTable()) {
         for (const Option& option : group.options) {
             if (option.verbs & verb) known.push_back("--" + std::string(option.name));
-            if (option.name != name && name != std::string(1, option.letter)) continue;
+            if (!isCalled(option, name)) continue;
             for (const VerbInfo& info : verbTable())
                 if (option.verbs & info.verb) others.push_back(info.name);
         }
@@ -177,13 +177,10 @@ std::string hintOf(Verb verb, const std::string& name, const std::vector<std::st
 {
     const std::string typed = error.get_option_name();
     const std::string name = typed.substr(std::min(typed.find_first_not_of('-'), typed.size()));
-    for (const OptionGroup& group : optionTable())
-        for (const Option& option : group.options) {
-            const bool letter = option.letter && name == std::string(1, option.letter);
-            if (!(option.verbs & verb) || (option.name != name && !letter)) continue;
-            if (option.value) missingValue(option);
-            misuse("--" + std::string(option.name) + ": it is a switch and takes no value");
-        }
+    if (const Option* option = findOption(verb, name)) {
+        if (option->value) missingValue(*option);
+        misuse("--" + std::string(option->name) + ": it is a switch and takes no value");
+    }
     misuse(error.what());
 }
 
