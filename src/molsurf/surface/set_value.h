@@ -85,10 +85,10 @@ auto numberSetter(const std::string& option, double low, double high, const std:
 }
 
 /// One of a few values that nameOf() names.
-/// @param[in] others  further words and what is meant by them, for the hint of an error
-template<typename Of, typename Enum>
-auto wordSetter(const std::string& option, const std::vector<Enum>& choices, const Of& of,
-                const std::vector<Synonyms>& others = {})
+/// @param[in] hint  for the error, of the word that was typed and of those that may be
+template<typename Of, typename Enum, typename Hint>
+auto hintedWordSetter(const std::string& option, const std::vector<Enum>& choices, const Of& of,
+                      const Hint& hint)
 {
     return [=](auto& target, const std::vector<std::string>& values) {
         std::vector<std::string> words;
@@ -98,9 +98,20 @@ auto wordSetter(const std::string& option, const std::vector<Enum>& choices, con
             of(target) = choice;
             return;
         }
-        wrongValue(option, joinWords(words, " or "), values.back(),
-                   didYouMean(values.back(), words, others));
+        wrongValue(option, joinWords(words, " or "), values.back(), hint(values.back(), words));
     };
+}
+
+/// One of a few values that nameOf() names.
+/// @param[in] others  further words and what is meant by them, for the hint of an error
+template<typename Of, typename Enum>
+auto wordSetter(const std::string& option, const std::vector<Enum>& choices, const Of& of,
+                const std::vector<Synonyms>& others = {})
+{
+    return hintedWordSetter(option, choices, of,
+                            [=](const std::string& typed, const std::vector<std::string>& words) {
+                                return didYouMean(typed, words, others);
+                            });
 }
 
 } // namespace molsurf

@@ -323,14 +323,9 @@ Setting fieldSetting()
 Setting kindSetting()
 {
     Setting row = word("surface", "KIND", kindText(), MOLSURF_OF(options.kind), surfaceKinds());
-    row.set = [words = row.words](Settings& s, const Values& values) {
-        for (const SurfaceKind kind : surfaceKinds()) {
-            if (lowered(values.back()) != nameOf(kind)) continue;
-            s.options.kind = kind;
-            return;
-        }
-        wrongValue("surface", joinWords(words, " or "), values.back(), kindMeant(values.back()));
-    };
+    row.set =
+        hintedWordSetter("surface", surfaceKinds(), MOLSURF_OF(options.kind),
+                         [](const std::string& typed, const Values&) { return kindMeant(typed); });
     return row;
 }
 
