@@ -4,6 +4,7 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/match_atoms.h"
+#include "molsurf/structure/assembly_operators.h"
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
@@ -49,48 +50,56 @@ std::optional<std::string> onlyChain(const Anchors& anchors)
     return *chains.begin();
 }
 
-/// R B R^T for the rotations of a motion and of an operator, and its shift.
+/// M B M^-1 for a motion M and an operator B.
 Operator movedOperator(const Superposition& motion, const Operator& op)
 {
-    Operator out = op;
-    const auto& r = motion.rows;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            double sum = 0.0;
-            for (int k = 0; k < 3; ++k)
-                for (int l = 0; l < 3; ++l)
-                    sum += r[std::size_t(i)][k] * op.rotation[std::size_t(k)][std::size_t(l)] *
-                           r[std::size_t(j)][l];
-            out.rotation[std::size_t(i)][std::size_t(j)] = sum;
-        }
-    // M (B (M^-1 x)) at x = 0 is M (B y) with y = M^-1 0 = -R^T shift.
-    Vec3d y(0.0), by;
-    for (int i = 0; i < 3; ++i) y -= r[std::size_t(i)] * motion.shift[i];
-    for (int i = 0; i < 3; ++i)
-        by[i] = Vec3d(op.rotation[std::size_t(i)].data()).dot(y) + op.translation[i];
-    out.translation = motion(by);
+    Operator there{}, back{};
+    there.translation = motion.shift;
+    back.translation = Vec3d(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const Vec3d& row = motion.rows[std::size_t(i)];
+        back.translation -= row * motion.shift[i];
+        for (int j = 0; j < 3; ++j)
+            there.rotation[std::size_t(i)][std::size_t(j)] =
+                back.rotation[std::size_t(j)][std::size_t(i)] = row[j];
+    }
+    Operator out = multiplied(multiplied(there, op), back);
+    out.name = op.name;
     return out;
 }
 
 } // namespace
 
-Anchors anchorsOf(const Structure& structure, const AnchorRule& rule, int number)
+std::vector<char> anchorAtoms(const Structure& structure, const AnchorRule& rule)
 {
-    Anchors found{structure.source, {}};
-    const bool byResidue = rule.anchors == "auto";
     std::vector<char> taken = chosen(structure, rule.among);
-    if (!byResidue) {
+    if (rule.byResidue()) {
+        for (std::size_t i = 0; i < taken.size(); ++i) {
+            const Atom& atom = structure.atoms[i];
+            taken[i] &= char(standsForResidue(residueOf(structure, atom), atom));
+        }
+    } else {
         const std::vector<char> anchors = chosen(structure, rule.anchors);
         for (std::size_t i = 0; i < taken.size(); ++i) taken[i] &= anchors[i];
     }
+    return taken;
+}
+
+Anchors anchorsOf(const Structure& structure, const AnchorRule& rule, int number)
+{
+    return anchorsOf(structure, rule, anchorAtoms(structure, rule), number);
+}
+
+Anchors anchorsOf(const Structure& structure, const AnchorRule& rule,
+                  const std::vector<char>& taken, int number)
+{
+    Anchors found{structure.source, {}};
     std::map<AtomKey, float> occupancies;
     const Model& model = modelOf(structure, number);
     for (std::size_t i = model.begin; i < model.end; ++i) {
         const Atom& atom = structure.atoms[i];
         const Residue& residue = residueOf(structure, atom);
-        if (!taken[i] || atom.role != AtomRole::Atom ||
-            (byResidue && !standsForResidue(residue, atom)))
-            continue;
+        if (!taken[i] || atom.role != AtomRole::Atom) continue;
         const AtomKey key{structure.chains[std::size_t(residue.chain)], residue.number,
                           residue.insertionCode, atom.name};
         const auto [known, isNew] = occupancies.emplace(key, atom.occupancy);
@@ -100,9 +109,10 @@ Anchors anchorsOf(const Structure& structure, const AnchorRule& rule, int number
     }
     if (found.atoms.empty())
         throw Error(ErrorKind::Input,
-                    structure.source + (byResidue ? ": `superpose` auto: there is no CA or C4'"
-                                                  : ": `superpose`: no atom of " +
-                                                        inQuotes(rule.anchors) + " is used"));
+                    structure.source +
+                        (rule.byResidue()
+                             ? ": `superpose` auto: there is no CA or C4'"
+                             : ": `superpose`: no atom of " + inQuotes(rule.anchors) + " is used"));
     return found;
 }
 

@@ -28,11 +28,20 @@ struct Anchors {
 struct AnchorRule {
     std::string anchors; ///< a selection; "auto": CA of amino acids and C4' of nucleotides
     std::string among;   ///< a selection that they are in, too; empty: all
+
+    bool byResidue() const { return anchors == "auto"; }
 };
+
+/// Which atoms of all models are anchors.
+std::vector<char> anchorAtoms(const Structure& structure, const AnchorRule& rule);
 
 /// @param[in] model  its number; 0: the first one
 /// @throws Error(ErrorKind::Input) if there are none
 Anchors anchorsOf(const Structure& structure, const AnchorRule& rule, int model);
+
+/// The same, by what anchorAtoms() has found.
+Anchors anchorsOf(const Structure& structure, const AnchorRule& rule,
+                  const std::vector<char>& taken, int model);
 
 /// The motion that lays some anchors on others, by the atoms that both have. Names of chains do not
 /// count where each of the two has one chain.

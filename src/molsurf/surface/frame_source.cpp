@@ -147,8 +147,9 @@ void FrameSource::update()
 void FrameSource::superpose(const AnchorRule& rule)
 {
     anchorRule_ = rule;
-    anchors_ =
-        anchorsOf(structure_, rule, trajectory_ ? structure_.models[model_].number : number(0));
+    anchorAtoms_ = anchorAtoms(structure_, rule);
+    anchors_ = anchorsOf(structure_, rule, anchorAtoms_,
+                         trajectory_ ? structure_.models[model_].number : number(0));
     assemblies_ = structure_.assemblies;
 }
 
@@ -163,8 +164,10 @@ void FrameSource::layOnFirst(std::size_t i, const Model& model)
     if (anchorRule_.anchors.empty()) return;
     auto known = motions_.find(i);
     if (known == motions_.end() || trajectory_) { // a model stays where it was moved to
-        const Superposition motion =
-            superpositionOf(anchorsOf(structure_, anchorRule_, model.number), anchors_);
+        if (trajectory_)                          // atoms by their distance are those of the frame
+            anchorAtoms_ = anchorAtoms(structure_, anchorRule_);
+        const Superposition motion = superpositionOf(
+            anchorsOf(structure_, anchorRule_, anchorAtoms_, model.number), anchors_);
         moveBy(motion, model, structure_);
         known = motions_.insert_or_assign(i, motion).first;
     }

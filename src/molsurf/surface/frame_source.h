@@ -89,6 +89,7 @@ private:
     std::unique_ptr<Trajectory> trajectory_;
     bool updates_ = false;
     AnchorRule anchorRule_;            ///< of superpose(); no anchors: none
+    std::vector<char> anchorAtoms_;    ///< those of the rule
     Anchors anchors_;                  ///< of the first frame
     std::vector<Assembly> assemblies_; ///< where the first frame has them
     std::map<std::size_t, Superposition> motions_;
