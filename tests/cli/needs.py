@@ -7,6 +7,7 @@ import functools
 import importlib.util
 import os
 import pathlib
+import re
 import resource
 import shutil
 import subprocess
@@ -125,6 +126,14 @@ def lacks(name):
     """None, or what to do."""
     here, remedy = NEEDS[name]
     return None if here() else f"needs {name}: {remedy}"
+
+
+def typable(block):
+    """The commands of a block of shell, without those that make films where ffmpeg is not here."""
+    if not re.search(r"\.(gif|mp4|webm)\b", block) or not lacks("ffmpeg"):
+        return block
+    commands = re.findall(r"(?:.*\\\n)*.*\n", block)
+    return "".join(one for one in commands if not re.search(r"\.(gif|mp4|webm)\b", one))
 
 
 def needs(name):
