@@ -16,7 +16,7 @@ FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelse
            "io", "picture", "surface", "bricks", "tools"]
 # The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it. (The
 # function compare() of mesh.h is in surface/compare.cpp: it is for callers of the library.)
-FACE = {"error.h": "core", "progress.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "pockets",
+FACE = {"error.h": "core", "progress.h": "core", "motion.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "pockets",
         "report.h": "levelset", "mesh.h": "mesh", "surface.h": "surface", "files.h": "tools",
         "bricks.h": "bricks", "settings.h": "surface", "molsurf.h": "tools"}
 # Folders that know less than their place allows.

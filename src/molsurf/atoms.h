@@ -5,6 +5,7 @@
 /// Reads atoms from a file and makes balls of them: which atoms, how large, and with which labels.
 
 #include "molsurf/ball.h"
+#include "molsurf/motion.h"
 #include "molsurf/progress.h"
 
 #include <array>
@@ -276,22 +277,10 @@ struct ResolutionGroup {
     double level = 0.0;    ///< Decay::level of all of them
 };
 
-/// A copy of a prototype, that is of balls that an assembly moves together: x -> rotation x +
-/// translation.
-struct Instance {
-    std::size_t part = 0;                          ///< index of the prototype
-    std::string name;                              ///< of the operator
-    std::array<std::array<double, 3>, 3> rotation; ///< rows
-    openvdb::Vec3d translation;                    ///< [Å]
-
-    openvdb::Vec3d turned(const openvdb::Vec3d& x) const
-    {
-        const auto& r = rotation;
-        return {r[0][0] * x[0] + r[0][1] * x[1] + r[0][2] * x[2],
-                r[1][0] * x[0] + r[1][1] * x[1] + r[1][2] * x[2],
-                r[2][0] * x[0] + r[2][1] * x[1] + r[2][2] * x[2]};
-    }
-    openvdb::Vec3d placed(const openvdb::Vec3d& x) const { return turned(x) + translation; }
+/// A copy of a prototype, that is of balls that an assembly moves together.
+struct Instance : Motion {
+    std::size_t part = 0; ///< index of the prototype
+    std::string name;     ///< of the operator
 };
 
 /// How the balls of a set stand for a whole. There are four ways: the balls of a file, or of all

@@ -58,11 +58,11 @@ Vec3d middleOf(const std::vector<Vec3d>& points)
 }
 
 /// The rows of the rotation by a unit quaternion.
-std::array<Vec3d, 3> rotationBy(double w, double x, double y, double z)
+std::array<std::array<double, 3>, 3> rotationBy(double w, double x, double y, double z)
 {
-    return {Vec3d(w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)),
-            Vec3d(2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)),
-            Vec3d(2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z)};
+    return {{{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+             {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+             {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
 }
 
 } // namespace
@@ -93,12 +93,13 @@ std::optional<Superposition> superposition(const std::vector<Vec3d>& points,
     if (!(largest - next > least * std::abs(largest))) return std::nullopt;
 
     Superposition found;
-    found.rows = rotationBy(vectors[0][best], vectors[1][best], vectors[2][best], vectors[3][best]);
-    found.shift = Vec3d(0.0);
-    found.shift = to - found(from);
+    found.rotation =
+        rotationBy(vectors[0][best], vectors[1][best], vectors[2][best], vectors[3][best]);
+    found.translation = to - found.turned(from);
     found.pairs = points.size();
     double sum = 0.0;
-    for (std::size_t k = 0; k < points.size(); ++k) sum += (found(points[k]) - onto[k]).lengthSqr();
+    for (std::size_t k = 0; k < points.size(); ++k)
+        sum += (found.placed(points[k]) - onto[k]).lengthSqr();
     found.rmsd = std::sqrt(sum / double(points.size()));
     return found;
 }

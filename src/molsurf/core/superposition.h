@@ -4,9 +4,8 @@
 /// @file
 /// The rigid motion that lays points on others.
 
-#include <openvdb/Types.h>
+#include "molsurf/motion.h"
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -15,16 +14,9 @@ namespace molsurf
 {
 
 /// A rigid motion of points, and how well it lays some of them on others.
-struct Superposition {
-    std::array<openvdb::Vec3d, 3> rows; ///< of the rotation
-    openvdb::Vec3d shift;               ///< x goes to rotation x + shift [Å]
-    std::size_t pairs = 0;              ///< of points
-    double rmsd = 0.0;                  ///< root mean square distance of the pairs [Å]
-
-    openvdb::Vec3d operator()(const openvdb::Vec3d& x) const
-    {
-        return openvdb::Vec3d(rows[0].dot(x), rows[1].dot(x), rows[2].dot(x)) + shift;
-    }
+struct Superposition : Motion {
+    std::size_t pairs = 0; ///< of points
+    double rmsd = 0.0;     ///< root mean square distance of the pairs [Å]
 };
 
 /// The rotation and shift of the least root mean square distance, without a mirror image: the

@@ -59,8 +59,8 @@ Json motionJson(const std::optional<Superposition>& motion)
     if (!motion) return {};
     Json matrix = Json::array();
     for (std::size_t i = 0; i < 3; ++i) {
-        const openvdb::Vec3d& row = motion->rows[i];
-        matrix.push_back({row[0], row[1], row[2], motion->shift[int(i)]});
+        const auto& row = motion->rotation[i];
+        matrix.push_back({row[0], row[1], row[2], motion->translation[int(i)]});
     }
     matrix.push_back({0.0, 0.0, 0.0, 1.0});
     return {{"atoms", motion->pairs}, {"rmsd", motion->rmsd}, {"matrix", std::move(matrix)}};

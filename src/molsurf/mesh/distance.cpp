@@ -172,7 +172,8 @@ Distance DistanceTo::Query::at(const Vec3d& x)
     const MeshPoint near = to_.closest_.at(x);
     if (sampler_) {
         const double voxel = surface.spline->voxelSize();
-        const Vec3d local = surface.pose.toLocal(x), start = surface.pose.toLocal(near.point);
+        const Vec3d local = surface.pose.broughtBack(x),
+                    start = surface.pose.broughtBack(near.point);
         // The triangles follow the surface closely: a foot at another distance is not the closest.
         constexpr double leeway = 0.25; // [voxel]
         const double about = (local - start).length();
@@ -188,8 +189,8 @@ Distance DistanceTo::Query::at(const Vec3d& x)
             const bool below = std::abs(height) >= 0.5 * distance
                                    ? height < 0.0
                                    : to_.pseudonormal(near).dot(x - near.point) < 0.0;
-            return {distance, surface.closed && below, surface.pose.toWorld(foot->y),
-                    surface.pose.turn * foot->normal};
+            return {distance, surface.closed && below, surface.pose.placed(foot->y),
+                    surface.pose.turned(foot->normal)};
         }
     }
     const Vec3d way = x - near.point, normal = unit(to_.pseudonormal(near));

@@ -8,6 +8,7 @@
 #include "molsurf/mesh.h"
 #include "molsurf/mesh/closest_point.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/motion.h"
 #include "molsurf/progress.h"
 #include "molsurf/spline/spline.h"
 
@@ -16,21 +17,12 @@
 namespace molsurf
 {
 
-/// The place of the frame of a spline in the world: x_world = turn x + shift.
-struct Pose {
-    openvdb::Mat3d turn = openvdb::Mat3d::identity(); ///< a rotation
-    openvdb::Vec3d shift = openvdb::Vec3d(0.0);       ///< [Å]
-
-    openvdb::Vec3d toWorld(const openvdb::Vec3d& x) const { return turn * x + shift; }
-    openvdb::Vec3d toLocal(const openvdb::Vec3d& x) const { return turn.transpose() * (x - shift); }
-};
-
 /// A surface that distances are measured to or from.
 struct Surface {
     Mesh mesh;                    ///< in the world [Å]; the surface itself if there is no spline
     bool closed = false;          ///< has an inside; see hasInside()
     std::optional<Spline> spline; ///< its zero set is the surface, the mesh a sample of it
-    Pose pose;                    ///< of the spline
+    Motion pose = Motion::identity(); ///< of the spline's frame into the world
 };
 
 /// Whether a mesh bounds a volume: every edge is used as often in one direction as in the other.

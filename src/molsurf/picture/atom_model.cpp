@@ -64,7 +64,7 @@ void addRing(const Vec3d& center, const Vec3d& u, const Vec3d& v, const Vec3d& t
 void addBall(const Vec3d& at, double radius, const Color& color, AtomModel& model)
 {
     model.instances.push_back(
-        {BallPart, "", {{{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, at, color});
+        {{{{{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, at}, BallPart, "", color});
 }
 
 /// Adds a copy of the stick, which goes from 0 to 1 along z with radius 1: the columns of its
@@ -74,7 +74,7 @@ void addStick(const Vec3d& from, const Vec3d& to, double radius, const Color& co
 {
     const Vec3d way = to - from;
     const auto [u, v] = perpendicular(way.unit());
-    MeshInstance stick{StickPart, "", {}, from, color};
+    MeshInstance stick{{{}, from}, StickPart, "", color};
     for (std::size_t row = 0; row < 3; ++row) {
         const int i = int(row);
         stick.rotation[row] = {radius * u[i], radius * v[i], way[i]};

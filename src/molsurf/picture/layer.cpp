@@ -70,16 +70,6 @@ RayScene::Triangles keptBy(const DrawOptions& options, const View& view, const M
     return kept;
 }
 
-/// The point of the mesh that a copy has brought to x.
-Vec3d broughtBack(const MeshInstance& copy, const Vec3d& x)
-{
-    const Vec3d d = x - copy.translation;
-    const auto& r = copy.rotation;
-    return {r[0][0] * d[0] + r[1][0] * d[1] + r[2][0] * d[2],
-            r[0][1] * d[0] + r[1][1] * d[1] + r[2][1] * d[2],
-            r[0][2] * d[0] + r[1][2] * d[1] + r[2][2] * d[2]};
-}
-
 } // namespace
 
 Vec3f Tracer::lamp()
@@ -384,7 +374,7 @@ Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) con
         Seen out;
         out.depth = float(top_);
         out.piece = Seen::cut;
-        const Vec3d x = copy ? broughtBack(*copy, from) : from;
+        const Vec3d x = copy ? copy->broughtBack(from) : from;
         out.color = options_.inside ? options_.inside(x) : options_.plain;
         return out;
     }
@@ -394,7 +384,7 @@ Seen Tracer::hitOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) con
     // Copies beside each other get different numbers below those of cuts, atoms and bodies.
     if (copy) out.piece = std::uint8_t(rays.hit.instID[0][s] % Seen::body);
     const Vec3d x = from - length * view_.toEye;
-    out.color = colorAt(t.data(), weights, copy ? broughtBack(*copy, x) : x);
+    out.color = colorAt(t.data(), weights, copy ? copy->broughtBack(x) : x);
     if (copy) out.color = mesh.colors.empty() ? copy->color : multiplied(out.color, copy->color);
     return out;
 }

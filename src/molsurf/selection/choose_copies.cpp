@@ -59,7 +59,7 @@ bool areEqual(const Operator& a, const Operator& b)
 std::vector<std::size_t> firstOfParts(const Assembly& assembly, const Vec3d& centroid)
 {
     const std::vector<Operator> operators = operatorsOf(assembly);
-    const Vec3d home = moved(operators[0], centroid);
+    const Vec3d home = operators[0].placed(centroid);
     std::vector<std::size_t> chosen;
     std::size_t begin = 0;
     for (const AssemblyPart& part : assembly.parts) {
@@ -69,7 +69,7 @@ std::vector<std::size_t> firstOfParts(const Assembly& assembly, const Vec3d& cen
         for (std::size_t i = begin; i < end; ++i) {
             const double away = areEqual(operators[i], operators[0])
                                     ? -1.0
-                                    : (moved(operators[i], centroid) - home).length();
+                                    : (operators[i].placed(centroid) - home).length();
             if (away < nearest) {
                 nearest = away;
                 best = i;
@@ -197,7 +197,7 @@ std::vector<std::size_t> chooseCopies(const Structure& structure, const Assembly
         } catch (const Error& error) {
             fail(structure, assembly, error.what());
         }
-        const Vec3d home = operators.empty() ? centroid : moved(operators[0], centroid);
+        const Vec3d home = operators.empty() ? centroid : operators[0].placed(centroid);
         const RotationAxis* axis = nearestAxis(symmetry, choice.fold, home);
         if (!axis) {
             fail(structure, assembly,

@@ -123,7 +123,7 @@ std::string describe(const Structure& structure, const Assembly& assembly)
     out += infoLine("symmetry", describeSymmetry(symmetry));
     if (symmetry.axes.empty()) return out;
     out += infoLine("centre", vectorText(symmetry.centre, 2) + " Å");
-    const openvdb::Vec3d home = moved(operators[0], centroids[0]);
+    const openvdb::Vec3d home = operators[0].placed(centroids[0]);
     std::set<int> folds;
     for (const RotationAxis& axis : symmetry.axes) folds.insert(-axis.fold);
     for (const int fold : folds) {

@@ -97,9 +97,7 @@ MotionKey keyOf(const Operator& op)
 
 void appendCopy(const Operator& op, const std::vector<Ball>& balls, std::vector<Ball>& out)
 {
-    const Instance motion{0, {}, op.rotation, op.translation};
-    for (const Ball& ball : balls)
-        out.push_back({motion.placed(ball.center), ball.radius, ball.atom});
+    for (const Ball& ball : balls) out.push_back({op.placed(ball.center), ball.radius, ball.atom});
 }
 
 std::vector<int> findCopies(const Structure& structure, const std::string& name,
@@ -154,11 +152,11 @@ Placement expandAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out)
 Placement instanceAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out)
 {
     // The parts that move together, motion by motion in the order of the file.
-    struct Motion {
+    struct MovedPart {
         const Operator* op;
         std::vector<std::size_t> parts;
     };
-    std::vector<Motion> motions;
+    std::vector<MovedPart> motions;
     std::map<MotionKey, std::size_t> motionOf;
     for (const AssemblyCopy& copy : assembly.copies) {
         const auto [found, isNew] = motionOf.emplace(keyOf(copy.op), motions.size());
@@ -169,7 +167,7 @@ Placement instanceAssembly(const AssemblyCopies& assembly, std::vector<Ball>& ou
     Placement placement;
     placement.begin = {0};
     std::map<std::vector<std::size_t>, std::size_t> prototypeOf;
-    for (Motion& motion : motions) {
+    for (MovedPart& motion : motions) {
         std::sort(motion.parts.begin(), motion.parts.end());
         motion.parts.erase(std::unique(motion.parts.begin(), motion.parts.end()),
                            motion.parts.end());
@@ -184,7 +182,7 @@ Placement instanceAssembly(const AssemblyCopies& assembly, std::vector<Ball>& ou
             placement.numbers.push_back(int(prototypeOf.size()));
         }
         placement.instances.push_back(
-            {found->second, motion.op->name, motion.op->rotation, motion.op->translation});
+            {*motion.op, found->second, motion.op->name});
     }
     placement.copies = prototypeOf.size();
     return placement;

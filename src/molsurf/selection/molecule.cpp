@@ -58,7 +58,7 @@ public:
         constexpr double farthest = 1e6; // [Å], as far as an index reaches
         for (const AssemblyPart* part : partsOf_[std::size_t(residueOf(structure_, from).asym)])
             for (const Operator& op : part->operators) {
-                const openvdb::Vec3d x = moved(op, from.position);
+                const openvdb::Vec3d x = op.placed(from.position);
                 if (std::abs(x.x()) < farthest && std::abs(x.y()) < farthest &&
                     std::abs(x.z()) < farthest)
                     call(x);

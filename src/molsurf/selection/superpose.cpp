@@ -53,19 +53,7 @@ std::optional<std::string> onlyChain(const Anchors& anchors)
 /// M B M^-1 for a motion M and an operator B.
 Operator movedOperator(const Superposition& motion, const Operator& op)
 {
-    Operator there{}, back{};
-    there.translation = motion.shift;
-    back.translation = Vec3d(0.0);
-    for (int i = 0; i < 3; ++i) {
-        const Vec3d& row = motion.rows[std::size_t(i)];
-        back.translation -= row * motion.shift[i];
-        for (int j = 0; j < 3; ++j)
-            there.rotation[std::size_t(i)][std::size_t(j)] =
-                back.rotation[std::size_t(j)][std::size_t(i)] = row[j];
-    }
-    Operator out = multiplied(multiplied(there, op), back);
-    out.name = op.name;
-    return out;
+    return {motion.after(op).after(motion.inverse()), op.name};
 }
 
 } // namespace
@@ -141,12 +129,12 @@ Superposition superpositionOf(const Anchors& moving, const Anchors& fixed)
 void moveBy(const Superposition& motion, const Model& model, Structure& structure)
 {
     for (std::size_t i = model.begin; i < model.end; ++i)
-        structure.atoms[i].position = motion(structure.atoms[i].position);
+        structure.atoms[i].position = motion.placed(structure.atoms[i].position);
 }
 
 void moveBy(const Superposition& motion, Structure& structure)
 {
-    for (Atom& atom : structure.atoms) atom.position = motion(atom.position);
+    for (Atom& atom : structure.atoms) atom.position = motion.placed(atom.position);
     structure.assemblies = moved(motion, std::move(structure.assemblies));
 }
 

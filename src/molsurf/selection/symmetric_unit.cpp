@@ -35,7 +35,7 @@ double deviationOf(const Operator& motion, const Operator& unit, const Operator&
         const Vec3d x((corner & 1 ? box.max() : box.min()).x(),
                       (corner & 2 ? box.max() : box.min()).y(),
                       (corner & 4 ? box.max() : box.min()).z());
-        farthest = std::max(farthest, (moved(motion, moved(unit, x)) - moved(copy, x)).length());
+        farthest = std::max(farthest, (motion.placed(unit.placed(x)) - copy.placed(x)).length());
     }
     return farthest;
 }
@@ -64,7 +64,7 @@ public:
     const AssemblyCopy& at(std::size_t i) const { return assembly_.copies[copyOf_[i]]; }
     /// The box of its part, in the coordinates of the file.
     const openvdb::BBoxd& box(std::size_t i) const { return boxes_[at(i).part]; }
-    Vec3d middle(std::size_t i) const { return moved(at(i).op, box(i).getCenter()); }
+    Vec3d middle(std::size_t i) const { return at(i).op.placed(box(i).getCenter()); }
 
 private:
     const AssemblyCopies& assembly_;
@@ -140,7 +140,7 @@ Placement chooseUnit(const AssemblyCopies& assembly, std::vector<Ball>& out)
                                      placement.numbers.size(),  deviation,
                                      std::move(group.product),  std::move(group.inverse)};
     for (const Operator& motion : group.motions)
-        placement.instances.push_back({0, motion.name, motion.rotation, motion.translation});
+        placement.instances.push_back({motion, 0, motion.name});
     return placement;
 }
 

@@ -128,24 +128,10 @@ std::vector<Assembly> Remark350::take()
 
 Operator multiplied(const Operator& first, const Operator& second)
 {
-    Operator product{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const auto& row = first.rotation[i];
-        for (std::size_t j = 0; j < 3; ++j) {
-            product.rotation[i][j] = row[0] * second.rotation[0][j] +
-                                     row[1] * second.rotation[1][j] +
-                                     row[2] * second.rotation[2][j];
-        }
-        const openvdb::Vec3d& t = second.translation;
-        const int component = static_cast<int>(i);
-        product.translation[component] =
-            row[0] * t[0] + row[1] * t[1] + row[2] * t[2] + first.translation[component];
-    }
     auto factor = [](const std::string& name) {
         return name.empty() || name[0] == '(' ? name : "(" + name + ")";
     };
-    product.name = factor(first.name) + factor(second.name);
-    return product;
+    return {first.after(second), factor(first.name) + factor(second.name)};
 }
 
 std::vector<std::vector<std::string>> parseOperatorExpression(const std::string& expression)
@@ -237,10 +223,7 @@ std::optional<Assembly> parseMtrix(const std::vector<string_view>& records,
 std::optional<Assembly> ncsAssembly(std::vector<Operator> operators)
 {
     if (operators.empty()) return std::nullopt;
-    Operator identity{};
-    for (std::size_t i = 0; i < 3; ++i) identity.rotation[i][i] = 1.0;
-    identity.name = "given";
-    operators.insert(operators.begin(), identity);
+    operators.insert(operators.begin(), {Motion::identity(), "given"});
     return Assembly{"ncs", {{{}, std::move(operators)}}, {}};
 }
 

@@ -53,11 +53,11 @@ RotationGroup findRotationGroup(const Assembly& assembly, const Vec3d& reference
     // Motions are told apart by where they take the first copy.
     std::vector<std::size_t> elementOf(copies, order);
     std::vector<Mat3d> rotations;
-    const Mat3d back = nearestRotation(matrixOf(operators[0])).transpose();
+    const Mat3d back = nearestRotation(operators[0].matrix()).transpose();
     for (std::size_t k = 0; k < order; ++k) {
         const std::size_t to = group.images[k][0];
         if (std::exchange(elementOf[to], k) != order) refuse("its operators are no group");
-        rotations.push_back(nearestRotation(matrixOf(operators[to])) * back);
+        rotations.push_back(nearestRotation(operators[to].matrix()) * back);
     }
     group.product.assign(order, std::vector<std::size_t>(order));
     group.inverse.resize(order);

@@ -77,10 +77,8 @@ struct Atom {
     double radius;           ///< the file's own [Å]; < 0 if it gives none
 };
 
-/// A rigid motion  x -> rotation x + translation  [Å].
-struct Operator {
-    std::array<std::array<double, 3>, 3> rotation; ///< rows
-    openvdb::Vec3d translation;
+/// A motion of an assembly.
+struct Operator : Motion {
     std::string name; ///< "7"; of a product "(1)(61)"; may be empty
 };
 

@@ -25,7 +25,7 @@ using openvdb::Vec3d;
 constexpr double angleTolerance = M_PI / 180.0; // [rad]
 
 /// x -> rotation (x - centre) + shift + centre, with rotation a rotation but for rounding.
-struct Motion {
+struct CopyMotion {
     Mat3d rotation;
     Vec3d shift;
 };
@@ -62,8 +62,8 @@ public:
         for (const Operator& op : operators_) {
             const std::string problem = rotationProblem(op);
             if (!problem.empty()) throw Error(ErrorKind::Input, problem);
-            rotations_.push_back(nearestRotation(matrixOf(op)));
-            positions_.push_back(matrixOf(op) * reference + op.translation);
+            rotations_.push_back(nearestRotation(op.matrix()));
+            positions_.push_back(op.placed(reference));
         }
         for (const Vec3d& x : positions_) centre_ += x / double(positions_.size());
         for (Vec3d& x : positions_) {
@@ -89,14 +89,14 @@ public:
     }
 
     /// The motion that takes copy i onto copy j.
-    Motion between(std::size_t i, std::size_t j) const
+    CopyMotion between(std::size_t i, std::size_t j) const
     {
         const Mat3d r = rotations_[j] * rotations_[i].transpose();
         return {r, positions_[j] - r * positions_[i]};
     }
 
     /// The first copy of the same part that copy i is moved onto; size() if there is none.
-    std::size_t image(const Motion& motion, std::size_t i) const
+    std::size_t image(const CopyMotion& motion, std::size_t i) const
     {
         return find(motion.rotation * rotations_[i], motion.rotation * positions_[i] + motion.shift,
                     i);
@@ -163,7 +163,7 @@ private:
 };
 
 /// The copies to whose places a motion moves every copy; empty if it moves one to where none is.
-std::vector<std::size_t> imagesOf(const Copies& copies, const Motion& motion)
+std::vector<std::size_t> imagesOf(const Copies& copies, const CopyMotion& motion)
 {
     std::vector<std::size_t> images(copies.size());
     std::vector<char> hit(copies.size());
@@ -223,7 +223,7 @@ struct Screw {
 /// The screw motion of a rigid motion (Chasles): of the shift t, the part across the axis u gives
 /// the point (t + u x t / tan(angle/2))/2 of the line.
 /// @param[in] distance  that the motion moves the molecule by [Å]
-Screw screwOf(const Motion& motion, double distance)
+Screw screwOf(const CopyMotion& motion, double distance)
 {
     const double tolerance = 0.2 + 1e-3 * distance;
     const Vec3d turn = rotationVector(motion.rotation);
@@ -317,7 +317,7 @@ std::vector<std::size_t> partsOfCopies(const Assembly& assembly)
 std::string rotationProblem(const Operator& op)
 {
     constexpr double tolerance = 0.02;
-    const Mat3d m = matrixOf(op);
+    const Mat3d m = op.matrix();
     const std::string expected = "operator " + inQuotes(op.name) + ": expected a rotation, got ";
     std::ostringstream determinant;
     determinant << " (determinant " << m.det() << ")";
@@ -329,17 +329,6 @@ std::string rotationProblem(const Operator& op)
         }
     }
     return "";
-}
-
-Mat3d matrixOf(const Operator& op)
-{
-    Mat3d m;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            m(i, j) = op.rotation[std::size_t(i)][std::size_t(j)];
-        }
-    }
-    return m;
 }
 
 Mat3d nearestRotation(Mat3d m)
@@ -362,7 +351,7 @@ Symmetry findSymmetry(const Assembly& assembly, const openvdb::Vec3d& reference)
     for (std::size_t j = 0; j < copies.size(); ++j) {
         if (copies.part(j) != copies.part(0) || copies.isDuplicate(j)) continue;
         ++inPart;
-        const Motion motion = copies.between(0, j);
+        const CopyMotion motion = copies.between(0, j);
         if (j == 0 || rotationVector(motion.rotation).length() < angleTolerance) continue;
         std::vector<std::size_t> to = imagesOf(copies, motion);
         if (to.empty()) continue;

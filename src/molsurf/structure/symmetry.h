@@ -53,15 +53,6 @@ std::vector<std::size_t> partsOfCopies(const Assembly& assembly);
 /// got a reflection (determinant -1)"; empty if it is one, but for 1 % in every component.
 std::string rotationProblem(const Operator& op);
 
-/// The rotation of an operator as a matrix.
-openvdb::Mat3d matrixOf(const Operator& op);
-
-/// The place to which an operator moves a point [Å].
-inline openvdb::Vec3d moved(const Operator& op, const openvdb::Vec3d& x)
-{
-    return matrixOf(op) * x + op.translation;
-}
-
 /// The rotation that is nearest to a matrix, which must be near one.
 openvdb::Mat3d nearestRotation(openvdb::Mat3d m);
 

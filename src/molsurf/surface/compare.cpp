@@ -77,12 +77,11 @@ FloatGrid::Ptr findLevelSet(const openvdb::GridPtrVec& grids)
 }
 
 /// The rotation and shift of a grid of cubes.
-Pose poseOf(const openvdb::GridBase& grid)
+Motion poseOf(const openvdb::GridBase& grid)
 {
     const auto& transform = grid.transform();
     if (!transform.isLinear()) refuse(gridName(grid) + ": expected a linear transform");
-    Pose pose;
-    pose.shift = transform.indexToWorld(Vec3d(0.0));
+    Motion pose{{}, transform.indexToWorld(Vec3d(0.0))};
     const double voxel = grid.voxelSize()[0];
     constexpr double least = 1e-6, most = 1e6; // [Å]
     if (!(voxel >= least && voxel <= most))
@@ -90,14 +89,16 @@ Pose poseOf(const openvdb::GridBase& grid)
     for (int axis = 0; axis < 3; ++axis) {
         Vec3d step(0.0);
         step[axis] = 1.0;
-        pose.turn.setCol(axis, (transform.indexToWorld(step) - pose.shift) / voxel);
+        const Vec3d column = (transform.indexToWorld(step) - pose.translation) / voxel;
+        for (int row = 0; row < 3; ++row)
+            pose.rotation[std::size_t(row)][std::size_t(axis)] = column[row];
     }
-    const Mat3d product = pose.turn.transpose() * pose.turn;
+    const Mat3d turn = pose.matrix(), product = turn.transpose() * turn;
     double worst = 0.0;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             worst = std::max(worst, std::abs(product(i, j) - (i == j ? 1.0 : 0.0)));
-    if (!(worst < 1e-6) || pose.turn.det() < 0.0) {
+    if (!(worst < 1e-6) || turn.det() < 0.0) {
         std::ostringstream message;
         message << gridName(grid)
                 << ": expected voxels that are cubes, not sheared or mirrored; got edges of "
@@ -108,14 +109,14 @@ Pose poseOf(const openvdb::GridBase& grid)
 }
 
 /// The largest coordinate of a box, whose corners lie at voxels, where these are put.
-double farthest(const openvdb::CoordBBox& box, const Pose& pose, double voxel)
+double farthest(const openvdb::CoordBBox& box, const Motion& pose, double voxel)
 {
     double most = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
         Vec3d x;
         for (int a = 0; a < 3; ++a) // bit a of the corner: its end of axis a
             x[a] = voxel * double((corner >> a & 1 ? box.max() : box.min())[a]);
-        const Vec3d placed = openvdb::math::Abs(pose.toWorld(x));
+        const Vec3d placed = openvdb::math::Abs(pose.placed(x));
         most = std::max({most, placed[0], placed[1], placed[2]});
     }
     return most;
@@ -123,13 +124,14 @@ double farthest(const openvdb::CoordBBox& box, const Pose& pose, double voxel)
 
 /// Refuses a grid with places that coordinates of 32 bits do not hold, in its own frame or outside.
 /// @return how far a place is rounded by float coordinates [Å]
-double roundingAt(const FloatGrid& grid, const Pose& pose)
+double roundingAt(const FloatGrid& grid, const Motion& pose)
 {
     constexpr double far = 1e6; // [Å], as of atoms
     openvdb::CoordBBox box;
     grid.tree().evalLeafBoundingBox(box);
     const double voxel = grid.voxelSize()[0];
-    const double local = farthest(box, Pose(), voxel), placed = farthest(box, pose, voxel);
+    const double local = farthest(box, Motion::identity(), voxel),
+                 placed = farthest(box, pose, voxel);
     constexpr int last = 1 << 26; // [voxel]: sums of a few coordinates stay within 32 bits
     if (!openvdb::CoordBBox(Coord(-last), Coord(last)).isInside(box))
         refuse(gridName(grid) + ": expected voxels within 2^26 of the origin");
@@ -217,15 +219,15 @@ void checkSlopes(const FloatGrid& levelSet, std::vector<std::string>& warnings)
 
 /// The stored spline of a level set; nothing if there is none, or, with a warning, of another one.
 std::optional<Spline> storedSpline(const openvdb::GridPtrVec& grids, const FloatGrid& levelSet,
-                                   const Pose& pose, std::vector<std::string>& warnings)
+                                   const Motion& pose, std::vector<std::string>& warnings)
 {
     const FloatGrid::Ptr coefficients = findGrid<FloatGrid>(grids, "spline");
     if (!coefficients || coefficients->empty()) return std::nullopt;
-    const Pose other = poseOf(*coefficients);
+    const Motion other = poseOf(*coefficients);
     roundingAt(*coefficients, other);
     checkValues(*coefficients, coefficients->cbeginValueAll());
-    if ((other.shift - pose.shift).length() > 1e-3 * levelSet.voxelSize()[0] ||
-        !other.turn.eq(pose.turn, 1e-5))
+    if ((other.translation - pose.translation).length() > 1e-3 * levelSet.voxelSize()[0] ||
+        !other.matrix().eq(pose.matrix(), 1e-5))
         refuse("grids 'surface' and 'spline': expected one origin and direction, got two");
     Spline spline{fromGrid(*coefficients)};
     if (fits(spline, levelSet)) return spline;
@@ -291,7 +293,7 @@ Operand storedOperand(const openvdb::GridPtrVec& grids, const Progress& progress
     operand.kind = "level set";
     checkNames(grids);
     const FloatGrid::Ptr stored = findLevelSet(grids);
-    const Pose pose = poseOf(*stored);
+    const Motion pose = poseOf(*stored);
     operand.voxel = stored->voxelSize()[0];
     // A tile is a few bytes of a file, and may be 2^36 voxels.
     const auto leaves = stored->tree().leafCount();
@@ -328,10 +330,10 @@ Operand storedOperand(const openvdb::GridPtrVec& grids, const Progress& progress
     return operand;
 }
 
-void place(const Pose& pose, Mesh& mesh)
+void place(const Motion& pose, Mesh& mesh)
 {
-    for (Vec3f& p : mesh.positions) p = Vec3f(pose.toWorld(Vec3d(p)));
-    for (Vec3f& n : mesh.normals) n = Vec3f(pose.turn * Vec3d(n));
+    for (Vec3f& p : mesh.positions) p = Vec3f(pose.placed(Vec3d(p)));
+    for (Vec3f& n : mesh.normals) n = Vec3f(pose.turned(Vec3d(n)));
 }
 
 Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress)

@@ -46,7 +46,7 @@ Operand operandOf(const openvdb::GridPtrVec& grids, const Progress& progress);
 Operand storedOperand(const openvdb::GridPtrVec& grids, const Progress& progress);
 
 /// Puts a mesh from the frame of a grid into the world.
-void place(const Pose& pose, Mesh& mesh);
+void place(const Motion& pose, Mesh& mesh);
 
 /// The spline through the band of a level set, whose values it takes; what it lacks is added as
 /// above. Without coefficients if there is no zero.

@@ -45,8 +45,9 @@ std::vector<MeshInstance> instancesOf(const BallSet& atoms, const Mesh& mesh, bo
     std::vector<MeshInstance> out;
     for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
         const Instance& copy = atoms.placement.instances[i];
-        out.push_back({copy.part, "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
-                       copy.rotation, copy.translation, colors.empty() ? one : colors[i]});
+        out.push_back({copy, copy.part,
+                       "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
+                       colors.empty() ? one : colors[i]});
     }
     return out;
 }

@@ -328,7 +328,7 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
                                   "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
     SurfaceRun run(stored.names, {withVoxel(options, operand.voxel), options}, Scope(), progress);
-    const Pose pose = operand.surface.pose;
+    const Motion pose = operand.surface.pose;
     run.resume(std::move(operand.surface.mesh), std::move(*operand.surface.spline),
                operand.levelSet);
     MolecularSurface& result = run.result();

@@ -54,7 +54,7 @@ TEST(Superposition, UndoesARigidMotion)
             EXPECT_EQ(found->pairs, 20u);
             EXPECT_LT(found->rmsd, 1e-11);
             for (std::size_t i = 0; i < points.size(); ++i)
-                EXPECT_LT(((*found)(points[i]) - onto[i]).length(), 1e-11);
+                EXPECT_LT((found->placed(points[i]) - onto[i]).length(), 1e-11);
         }
     }
 }
@@ -67,7 +67,7 @@ TEST(Superposition, HasTheLeastDistance)
     const auto found = superposition(points, onto);
     ASSERT_TRUE(found);
     std::vector<Vec3d> laid;
-    for (const Vec3d& x : points) laid.push_back((*found)(x));
+    for (const Vec3d& x : points) laid.push_back(found->placed(x));
     EXPECT_NEAR(rmsdOf(laid, onto), found->rmsd, 1e-12);
     const Vec3d middle = [&] {
         Vec3d sum(0.0);

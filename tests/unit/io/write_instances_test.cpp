@@ -45,9 +45,9 @@ Mesh twoTetrahedra(float size)
 
 std::vector<MeshInstance> threeCopies()
 {
-    return {{0, "1", same, Vec3d(0.0), red},
-            {0, "2", thirdTurn, Vec3d(100, 0, 0), blue},
-            {1, "3", same, Vec3d(0, 0, 5), red}};
+    return {{{same, Vec3d(0.0)}, 0, "1", red},
+            {{thirdTurn, Vec3d(100, 0, 0)}, 0, "2", blue},
+            {{same, Vec3d(0, 0, 5)}, 1, "3", red}};
 }
 
 std::string usda(const Mesh& mesh, const UsdInstances& copies)

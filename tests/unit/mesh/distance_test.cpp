@@ -18,13 +18,14 @@ namespace
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-Surface splineSurface(const test::Shape& shape, double voxel, const Pose& pose = Pose())
+Surface splineSurface(const test::Shape& shape, double voxel,
+                      const Motion& pose = Motion::identity())
 {
     Surface surface;
     surface.spline = test::splineOf(shape.distance, shape.distance, shape.centre, shape.extent,
                                     voxel, 6.0 * voxel);
     surface.mesh = test::meshOf(shape, voxel);
-    for (Vec3f& p : surface.mesh.positions) p = Vec3f(pose.toWorld(Vec3d(p)));
+    for (Vec3f& p : surface.mesh.positions) p = Vec3f(pose.placed(Vec3d(p)));
     surface.closed = true;
     surface.pose = pose;
     return surface;
@@ -64,7 +65,7 @@ double worstError(const Surface& surface, const test::Shape& shape, double reach
     for (const Vec3d& x : pointsAbout(shape.centre, reach, 1000)) {
         if (nearKink(shape, x)) continue;
         const double exact = shape.distance(x);
-        const Distance d = query.at(surface.pose.toWorld(x));
+        const Distance d = query.at(surface.pose.placed(x));
         worst = std::max(worst, std::abs((d.inside ? -d.value : d.value) - exact));
     }
     return worst;
@@ -98,9 +99,11 @@ TEST(DistanceToSpline, BeatsItsTriangles)
 
 TEST(DistanceToSpline, InATurnedAndShiftedFrame)
 {
-    Pose pose;
-    pose.turn = test::Pose().turn;
-    pose.shift = Vec3d(7.0, -3.0, 11.0);
+    const openvdb::Mat3d turn = test::Pose().turn;
+    Motion pose{};
+    for (int i = 0; i < 9; ++i)
+        pose.rotation[std::size_t(i / 3)][std::size_t(i % 3)] = turn(i / 3, i % 3);
+    pose.translation = Vec3d(7.0, -3.0, 11.0);
     const test::Shape ball = test::sphere(2.3);
     EXPECT_LT(worstError(splineSurface(ball, 0.25, pose), ball, 8.0), 1e-4);
 }
