@@ -12,13 +12,13 @@ function(molsurf_settings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wno-psabi $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>
                                            $<$<BOOL:${MOLSURF_WERROR}>:-Werror> $<$<BOOL:${MOLSURF_WERROR}>:-Wshadow>
                                            -fno-math-errno -fno-trapping-math)
-  if(NOT target STREQUAL molsurf_internal)
-    target_precompile_headers(${target} REUSE_FROM molsurf_internal)
+  if(NOT target STREQUAL molsurf_kernel)
+    target_precompile_headers(${target} REUSE_FROM molsurf_kernel)
     return()
   endif()
-  target_precompile_headers(molsurf_internal PRIVATE ${molsurf_precompiled}/precompiled.h)
+  target_precompile_headers(molsurf_kernel PRIVATE ${molsurf_precompiled}/precompiled.h)
   if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
-    target_sources(molsurf_internal PRIVATE ${molsurf_precompiled}/float_grid.cpp ${molsurf_precompiled}/int32_grid.cpp
+    target_sources(molsurf_kernel PRIVATE ${molsurf_precompiled}/float_grid.cpp ${molsurf_precompiled}/int32_grid.cpp
                                    ${molsurf_precompiled}/vec3s_grid.cpp)
   endif()
 endfunction()

@@ -249,7 +249,8 @@ MOLSURF_MEMBERS(Report::Pockets::Pocket, v.volume, v.area, v.depth, v.radius, v.
 MOLSURF_MEMBERS(Report::Pockets, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list)
 MOLSURF_MEMBERS(Report::Pore::Station, v.place, v.normal, v.distance, v.radius, v.isBottleneck,
                 v.lining)
-MOLSURF_MEMBERS(Report::Pore, v.axis, v.stations)
+MOLSURF_MEMBERS(Report::Pore::Way, v.radius, v.place)
+MOLSURF_MEMBERS(Report::Pore, v.axis, v.stations, v.crossed, v.bundle, v.others)
 MOLSURF_MEMBERS(Report::Resolution, v.select, v.resolution, v.atoms, v.level)
 MOLSURF_MEMBERS(Report::Part, v.name, v.atoms, v.surface)
 MOLSURF_MEMBERS(Report::Copy, v.part, v.name, v.matrix)
@@ -258,7 +259,7 @@ MOLSURF_MEMBERS(Report::Symmetry, v.pointGroup, v.order, v.copies, v.deviation, 
 MOLSURF_MEMBERS(Report, v.program, v.version, v.command, v.input, v.atoms, v.voxel, v.center,
                 v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.pockets, v.pore,
                 v.parts, v.instances, v.symmetry, v.evolution, v.activeVoxels, v.gridBytes,
-                v.seconds, v.peakMemoryBytes, v.threads, v.warnings, v.areasOf)
+                v.seconds, v.peakMemoryBytes, v.threads, v.warnings, v.areasOf, v.measures)
 
 #undef MOLSURF_MEMBERS
 

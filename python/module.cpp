@@ -41,10 +41,14 @@ Settings settingsOf(const Given& given)
     return settings;
 }
 
+using GroupWords = std::vector<std::pair<std::string, std::string>>;
+
 /// Atoms, with what they were asked for.
 struct Molecule {
     std::shared_ptr<BallSet> atoms;
     std::string source; ///< the name of the file
+    std::shared_ptr<const molsurf::Molecule> file{}; ///< null: of a pickle
+    GroupWords groups{};
 };
 
 /// A surface, with all that it was made from.
@@ -119,28 +123,86 @@ nb::list describeSettings()
         one["low"] = row.low;
         one["high"] = row.high;
         one["of_atoms"] = row.ofAtoms;
+        one["chooses_balls"] = row.choosesBalls;
         one["default"] = row.get ? nb::cast(row.get(Settings())) : nb::none();
         out.append(one);
     }
     return out;
 }
 
-Molecule readMolecule(const std::string& name, const std::optional<nb::bytes>& content,
-                      const Given& given,
-                      const std::vector<std::pair<std::string, std::string>>& groups,
-                      const How& how)
+Settings settingsOf(const Given& given, const GroupWords& groups)
 {
     Settings settings = settingsOf(given);
     for (const auto& [group, select] : groups) settings.atoms.groups.push_back({group, select, {}});
     if (settings.colorGroups) settings.atoms.groupBy = settings.colorGroups;
-    const double probe = probeOf(settings.options);
-    FileContent file{name, content ? std::string(content->c_str(), content->size()) : ""};
-    Molecule out{nullptr, name};
-    out.atoms = run(how, [&](const Progress& progress) {
-        return std::make_shared<BallSet>(
-            content ? readAtoms(std::move(file), settings.atoms, probe, progress)
-                    : readAtoms(name, settings.atoms, probe, progress));
+    return settings;
+}
+
+Molecule readMolecule(const std::string& name, const std::optional<nb::bytes>& content,
+                      const Given& given, const GroupWords& groups, const How& how)
+{
+    const Settings settings = settingsOf(given, groups);
+    checkOptions(settings.atoms);
+    const SelectOptions& atoms = settings.atoms;
+    FileContent bytes{name, content ? std::string(content->c_str(), content->size()) : ""};
+    Molecule out{nullptr, name, nullptr, groups};
+    run(how, [&](const Progress& progress) {
+        out.file = std::make_shared<const molsurf::Molecule>(
+            content ? molsurf::Molecule(std::move(bytes), progress, atoms.maxInput, atoms.memory)
+                    : molsurf::Molecule(name, progress, atoms.maxInput, atoms.memory));
+        out.atoms = std::make_shared<BallSet>(
+            out.file->balls(atoms, probeOf(settings.options), progress));
+        return 0;
     });
+    return out;
+}
+
+[[noreturn]] void failWithoutFile(const char* what)
+{
+    throw Error(ErrorKind::Usage, std::string(what) + ": expected a molecule that read() made, got "
+                                                      "one of a pickle, which has no file");
+}
+
+/// The same atoms, where they are now, with other products of them.
+/// @param[in] given  as of read(), with what is asked for
+std::shared_ptr<BallSet> asked(const Molecule& molecule, const Given& given, const How& how)
+{
+    if (!molecule.file) failWithoutFile("surface");
+    const BallSet& now = *molecule.atoms;
+    const Settings settings = settingsOf(given, molecule.groups);
+    const double probe = probeOf(settings.options);
+    return run(how, [&](const Progress& progress) {
+        auto out =
+            std::make_shared<BallSet>(molecule.file->balls(settings.atoms, probe, progress));
+        std::vector<std::int32_t> atoms;
+        std::vector<Vec3d> places;
+        bool moved = false;
+        for (std::size_t i = 0; i < now.balls.size(); ++i) {
+            moved |= now.balls[i].center != out->balls[i].center;
+            atoms.push_back(now.balls[i].atom);
+            places.push_back(now.balls[i].center);
+        }
+        if (moved && now.placement.copies > 1)
+            throw Error(ErrorKind::Usage, "surface: expected copies of an assembly where the file "
+                                          "has them, got others [hint: ask read() for it]");
+        if (moved)
+            *out = molecule.file->moved(atoms, places).balls(settings.atoms, probe, progress);
+        for (std::size_t i = 0; i < now.balls.size(); ++i)
+            out->balls[i].radius = now.balls[i].radius;
+        return out;
+    });
+}
+
+/// The places in `atoms` of those that a selection takes.
+std::vector<std::int32_t> selected(const Molecule& molecule, const std::string& selection)
+{
+    if (!molecule.file) failWithoutFile("select");
+    std::set<std::size_t> taken;
+    for (const std::size_t atom : molecule.file->select(selection)) taken.insert(atom);
+    std::vector<std::int32_t> out;
+    for (std::size_t i = 0; i < molecule.atoms->own(); ++i)
+        if (taken.count(std::size_t(molecule.atoms->balls[i].atom)) > 0)
+            out.push_back(std::int32_t(i));
     return out;
 }
 
@@ -527,9 +589,15 @@ void addMolecule(nb::module_& m)
                      })
         .def("surface",
              [](const Molecule& v, const Given& given, const std::vector<std::string>& extra,
-                const std::string& areasOf, Listener progress, int threads) {
-                 return surfaceOf(std::make_shared<BallSet>(*v.atoms), v.source,
-                                  optionsOf(given, extra, areasOf), {progress, threads});
+                const std::string& areasOf, bool again, Listener progress, int threads) {
+                 const How how{progress, threads};
+                 auto atoms = again ? asked(v, given, how) : std::make_shared<BallSet>(*v.atoms);
+                 return surfaceOf(std::move(atoms), v.source, optionsOf(given, extra, areasOf),
+                                  how);
+             })
+        .def("select",
+             [](const Molecule& v, const std::string& selection) {
+                 return owned<std::int32_t>(selected(v, selection));
              })
         .def("__getstate__", [](const Molecule& v) { return pack(*v.atoms, v.source); })
         .def("__setstate__",
@@ -624,8 +692,7 @@ void addFunctions(nb::module_& m)
     });
     m.def("read",
           [](const std::string& name, const std::optional<nb::bytes>& content, const Given& given,
-             const std::vector<std::pair<std::string, std::string>>& groups, Listener progress,
-             int threads) {
+             const GroupWords& groups, Listener progress, int threads) {
               return readMolecule(name, content, given, groups, {progress, threads});
           });
     m.def("surface", [](const Positions& positions, const Numbers& radii, const Given& given,

@@ -156,8 +156,9 @@ def default_of(row):
 
 def keywords(where):
     """The keywords of a function, as lines."""
-    lines = [f"{name}: {type_of(row)} = {default_of(row)}," for name, row in _options.KEYWORDS.items()
-             if where == "read" or not row["of_atoms"]]
+    rows = {name: {**row, "never": False} for name, row in _options.KEYWORDS.items()}
+    lines = [f"{name}: {type_of(row)} = {default_of(row)}," for name, row in rows.items()
+             if not row[{"read": "never", "surface": "of_atoms", "molecule": "chooses_balls"}[where]]]
     more = {"groups": _options.GROUPS, **{name: _options.MORE[name] for name in ("threads", "progress")}}
     lines += [f"{name}: {kind} = {preset}," for name, (kind, preset, _) in
               (more if where == "read" else _options.MORE).items()]
@@ -177,7 +178,10 @@ def main():
     print(HEAD + properties(ARRAYS) + properties(PLAIN, "{}") + METHODS)
     print("class Molecule:\n    def __len__(self) -> int: ...\n" + properties(OF_ATOMS) + properties(OF_MOLECULES, "{}") +
           "    def superpose(self, onto: Molecule, names: Sequence[str] = ...) -> float: ...\n" +
-          textwrap.indent(function("surface", "self", "surface", "Surface"), "    "))
+          "    def select(self, selection: str) -> Selection: ...\n" +
+          textwrap.indent(function("surface", "self", "molecule", "Surface"), "    "))
+    print("class Selection:\n    molecule: Molecule\n    indices: NDArray[np.int32]\n    count: int\n"
+          "    mask: NDArray[np.bool_]\n    positions: NDArray[np.float64]\n    def __len__(self) -> int: ...")
     print(function("surface", "positions: ArrayLike, radii: ArrayLike", "surface", "Surface"))
     print(function("read", "source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO", "read", "Molecule"))
     print(FUNCTIONS, end="")

@@ -12,12 +12,13 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 # The folders of src/molsurf in their order: each may include those before it, if it is not named here.
-FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelset", "topology", "pockets", "flow", "mesh", "color",
-           "io", "picture", "surface", "bricks", "tools"]
+FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelset", "topology", "pockets", "flow", "mesh", "pipeline",
+           "proximity", "color", "io", "picture", "surface", "bricks", "tools"]
 # The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it. (The
 # function compare() of mesh.h is in surface/compare.cpp: it is for callers of the library.)
-FACE = {"error.h": "core", "progress.h": "core", "motion.h": "core", "ball.h": "balls", "atoms.h": "selection", "options.h": "pockets",
-        "report.h": "levelset", "mesh.h": "mesh", "surface.h": "surface", "files.h": "tools",
+FACE = {"error.h": "core", "progress.h": "core", "motion.h": "core", "ball.h": "balls", "kernel.h": "flow",
+        "atoms.h": "selection", "molecule.h": "selection", "options.h": "pockets",
+        "report.h": "levelset", "mesh.h": "flow", "surface.h": "surface", "files.h": "tools",
         "bricks.h": "bricks", "settings.h": "surface", "molsurf.h": "tools"}
 # Folders that know less than their place allows.
 ONLY = {
@@ -27,8 +28,15 @@ ONLY = {
     "spline": {"core", "grid"},
     "topology": {"core", "grid", "levelset", "spline"},
     "pockets": {"core", "grid", "balls", "levelset"},
+    "flow": {"core", "grid", "balls", "levelset", "spline", "topology"},
     "mesh": {"core", "grid", "levelset", "spline"},
+    "pipeline": {"core", "grid", "balls", "levelset", "spline", "topology", "flow", "mesh"},
+    "proximity": {"core", "grid", "levelset", "spline", "mesh"},
 }
+
+# The kernel, a target of its own, includes nothing else: of the face these headers.
+KERNEL = {"core", "grid", "balls", "spline", "levelset", "topology", "flow", "mesh", "pipeline"}
+KERNEL_FACE = {"error.h", "progress.h", "motion.h", "ball.h", "report.h", "mesh.h", "kernel.h"}
 
 # Where a library may be included: what is not named here may be included anywhere.
 LIBRARIES = {
@@ -37,7 +45,7 @@ LIBRARIES = {
                   "src/molsurf/structure/binary_cif.cpp"],
     "png.h": ["src/molsurf/picture/write_png.cpp"],
     "ft2build.h": ["src/molsurf/picture/font.cpp"],
-    "embree": ["src/molsurf/mesh/embree.h"],
+    "embree": ["src/molsurf/proximity/embree.h"],
     "openssl/": ["tools/sha256.cpp"],
     "boost/program_options": ["tools/cli/parse.cpp"],
 }
@@ -63,6 +71,8 @@ def complaint(path, quote, name):
         return None
     if not (ROOT / "src" / name).is_file():
         return "there is no such file"
+    if stage in KERNEL and name.split("/")[1] not in KERNEL | KERNEL_FACE:
+        return "the kernel includes nothing outside of it"
     if name.count("/") == 1:
         level = FACE.get(name.split("/")[1])
         if level and (stage == "face" or FOLDERS.index(stage) >= FOLDERS.index(level)):

@@ -17,11 +17,11 @@
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/io/made_folders.h"
+#include "molsurf/pipeline/check_balls.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface.h"
-#include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/run.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <malloc.h>
 #include <tbb/global_control.h>

@@ -11,7 +11,7 @@
 #include "molsurf/grid/paged_array.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/temporary_file.h"
-#include "molsurf/surface/check_balls.h"
+#include "molsurf/pipeline/check_balls.h"
 
 #include <malloc.h>
 #include <unistd.h>

@@ -14,10 +14,10 @@
 #include "molsurf/picture/atom_model.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/pockets.h"
 #include "molsurf/surface/run.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <functional>

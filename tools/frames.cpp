@@ -19,10 +19,10 @@
 #include "molsurf/io/write_table.h"
 #include "molsurf/io/write_vdb.h"
 #include "molsurf/picture/view.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
-#include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/velocity.h"
 
 #include <algorithm>

@@ -32,12 +32,12 @@
 #include "molsurf/picture/view_file.h"
 #include "molsurf/picture/write_html.h"
 #include "molsurf/picture/write_png.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/pore.h"
 #include "molsurf/surface/solver_files.h"
 #include "molsurf/surface/stored_surface.h"
-#include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>

@@ -63,6 +63,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "bricks plan"' -l
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "convert"' -l fields -x -a 'all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v' -d 'curvatures for the vertices of a .ply or .glb, by commas,'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "bricks plan"' -l vdb-half -d 'floats of the .vdb in 16 bits, within 0.05 %: half the size'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l curvature-totals -d 'integrate curvature over the surface, for the report'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l measures -x -a 'sphericity gyration_radius' -d 'numbers of the whole surface for the report, by commas:'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l epsilon -r -d 'tolerance of the Gaussian sum [Å]; larger is smoother'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l match -x -a 'none ses' -d 'ses: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan"' -l resolution -r -d 'blur to D [Å], 1 to 50, all atoms or those of a'

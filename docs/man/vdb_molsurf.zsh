@@ -12,6 +12,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
     "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
+    "build:--measures") compadd -- 'sphericity' 'gyration_radius'; return ;;
     "build:--match") compadd -- 'none' 'ses'; return ;;
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
     "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -32,6 +33,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
+    "batch:--measures") compadd -- 'sphericity' 'gyration_radius'; return ;;
     "batch:--match") compadd -- 'none' 'ses'; return ;;
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
     "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -128,6 +130,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--fields:grids of the .vdb, by commas, or all of'
       '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
       '--curvature-totals:integrate curvature over the surface, for the report'
+      '--measures:numbers of the whole surface for the report, by commas\:'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
       '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
@@ -235,6 +238,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--fields:grids of the .vdb, by commas, or all of'
       '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
       '--curvature-totals:integrate curvature over the surface, for the report'
+      '--measures:numbers of the whole surface for the report, by commas\:'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
       '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'

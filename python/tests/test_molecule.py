@@ -53,12 +53,47 @@ def test_keywords_of_read_are_defaults(crambin):
     s = m.surface()
     assert s.kind == "sas" and s.report["voxel"] == 1 and len(s.colors) == len(s.vertices)
     assert m.surface(kind="vdw", color="none").kind == "vdw"
-    with pytest.raises(ValueError, match="read"):
-        crambin.surface(color="bfactor")
-    with pytest.raises(ValueError, match="read"):
-        crambin.surface(color="entity")
     with pytest.raises(ValueError, match="expected groups"):
         crambin.surface(interfaces=True)
+
+
+def test_a_molecule_answers_questions_about_its_atoms(crambin):
+    s = crambin.surface(kind="ses", voxel=1, pore="auto", pockets=True, color="bfactor")
+    assert len(s.colors) == len(s.vertices) and "pockets" in s.report and s.report["pore"] is not None
+    read_with = ms.read(DATA / "1crn.pdb", color="bfactor").surface(kind="ses", voxel=1)
+    assert (read_with.colors == s.colors).all()
+    assert len(crambin.surface(voxel=1, color="entity").colors) and crambin.surface(voxel=1, pocket_at="resid 5").area > 0
+    grouped = ms.read(DATA / "1a8o.cif.gz", assembly="1").surface(kind="sas", grid=False, interfaces=True, group_by="copy")
+    assert len(grouped.report["interfaces"]) == 1
+    with pytest.raises(TypeError, match="is for read"):
+        crambin.surface(waters=True)
+    with pytest.raises(ms.OptionError, match="nowhere"):
+        crambin.surface(pore="nowhere")
+    with pytest.warns(DeprecationWarning, match="pore, range"):
+        ms.read(DATA / "1crn.pdb", pore="auto", range=(0, 1))
+
+
+def test_questions_are_about_the_atoms_as_they_are(crambin):
+    m = ms.read(DATA / "1crn.pdb")
+    m.positions[:] += 30
+    m.radii[:] = 2.0
+    moved, here = m.surface(kind="sas", voxel=1, color="bfactor"), m.surface(kind="sas", voxel=1)
+    assert moved.area == pytest.approx(here.area, rel=1e-12) and moved.vertices.min() > 20
+    with pytest.raises(ms.OptionError, match="pickle"):
+        pickle.loads(pickle.dumps(m)).surface(pore="auto")
+
+
+def test_select_finds_atoms(crambin):
+    found = crambin.select("resid 5-9")
+    inside = (crambin.residue_number >= 5) & (crambin.residue_number <= 9)
+    assert found.count == len(found) == inside.sum() and (found.mask == inside).all()
+    assert (crambin.positions[found.indices] == found.positions).all() and "of 327 atoms" in repr(found)
+    water = ms.read(DATA / "1ubq.pdb").select("water")
+    assert water.count == 0
+    with pytest.raises(ms.InputError):
+        crambin.select("resname XYZ")
+    with pytest.raises(ms.OptionError):
+        crambin.select("resid 5 frobnicate")
 
 
 def test_tables_are_dicts_of_arrays(crambin):

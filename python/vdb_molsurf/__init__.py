@@ -11,13 +11,13 @@ Lengths are in Å, areas in Å², volumes in Å³.
 from . import _core
 from ._core import CheckError, InputError, NumericError, OptionError, OutputError
 from ._many import Shard, map, measure, shards
-from ._molecule import Molecule, radii, read
+from ._molecule import Molecule, Selection, radii, read
 from ._surface import (Comparison, Contacts, Distances, Page, Samples, Surface, Voxels, areas, compare, contacts,
                        surface)
 
 __version__ = _core.__version__
 __all__ = ["CheckError", "Comparison", "Contacts", "Distances", "InputError", "Molecule", "NumericError",
-           "OptionError", "OutputError", "Page", "Samples", "Shard", "Surface", "Voxels", "areas", "compare", "contacts", "map",
+           "OptionError", "OutputError", "Page", "Samples", "Selection", "Shard", "Surface", "Voxels", "areas", "compare", "contacts", "map",
            "measure", "radii", "read", "shards", "surface"]
 
 

@@ -10,7 +10,7 @@ import threading
 import typing
 
 from . import _apart, _core, _digest, _options, _parts
-from ._molecule import read
+from ._molecule import _read
 from ._surface import _threads, surface
 
 ENDINGS = tuple(_core.structure_endings())
@@ -211,7 +211,8 @@ def _surface_of(item, content, options):
         return surface(item[1], item[2], **options)
     of_surface = {name: options[name] for name in _options.MORE if name in options}
     of_atoms = {name: value for name, value in options.items() if name not in _options.MORE}
-    return read(item if content is None else content, **of_atoms).surface(**of_surface)
+    groups = of_atoms.pop("groups", None)
+    return _read(item if content is None else content, groups, None, 0, of_atoms).surface(**of_surface)
 
 
 def _columns_of(found):

@@ -3,11 +3,44 @@
 
 import errno
 import os
+import warnings
 
 import numpy as np
 
 from . import _arrays, _core, _options
 from ._surface import Surface, _called, _made, _split
+
+
+class Selection:
+    """Atoms of a molecule that Molecule.select() found."""
+
+    __slots__ = ("molecule", "indices")
+
+    def __init__(self, molecule, indices):
+        self.molecule, self.indices = molecule, indices
+
+    def __len__(self):
+        return len(self.indices)
+
+    def __repr__(self):
+        return f"<Selection: {len(self)} of {len(self.molecule)} atoms>"
+
+    @property
+    def count(self):
+        """How many atoms it has."""
+        return len(self.indices)
+
+    @property
+    def mask(self):
+        """Whether each atom of the molecule is among them, (n,) bool."""
+        found = np.zeros(len(self.molecule), bool)
+        found[self.indices] = True
+        return found
+
+    @property
+    def positions(self):
+        """A copy of their positions, (count, 3) float64 [Å]."""
+        return self.molecule.positions[self.indices]
 
 
 class Molecule:
@@ -141,30 +174,43 @@ class Molecule:
         self.positions[:] = (self.positions - a.mean(axis=0)) @ turn + b.mean(axis=0)
         return float(np.sqrt((((a - a.mean(axis=0)) @ turn + b.mean(axis=0) - b) ** 2).sum(axis=1).mean()))
 
-    def surface(self, **options):
-        """Makes the surface of the atoms. Keywords are those of surface(); those given to read() are the defaults.
+    def select(self, selection):
+        """Finds the atoms that a selection takes, as "chain A and resid 5-9" or "within 4 of resname HEM".
 
-        Returns a Surface. Raises what surface() raises.
+        selection: text in the words of the command line's --select; it may name atoms of the file that the molecule has
+        not, as waters.
+
+        Returns a Selection of the molecule's own atoms: `count`, `indices` (count,) int32 into its arrays, `mask`.
+
+        Raises OptionError if the text cannot be parsed, InputError if the file has no such atom, ValueError of a pickle.
+        """
+        return Selection(self, self._core.select(str(selection)))
+
+    def surface(self, **options):
+        """Makes the surface of the atoms. Those keywords that read() was given are the defaults.
+
+        Returns a Surface. Raises what surface() raises, and OptionError or InputError for questions about the atoms
+        (pore, pocket_at, group_by) that the file cannot answer.
 
         Keywords:
         """
         if not self._core.is_whole:
             options.setdefault("atom_areas", False)
         options, extra, areas_of, how = _split(options)
-        pairs = _options.given(options, "surface", _options.MORE)
-        color = dict(self._given).get("color")
-        for name, values in pairs:
-            if name == "color" and values != color and _core.is_of_file(values[0]):
-                raise ValueError(f"color: '{values[0][:40]}' needs what read() has to take from the file "
-                                 f"[hint: read(..., color=...)]")
+        pairs = _options.given(options, "molecule", _options.MORE)
+        known = dict(self._given)
+        again = any(values != known.get(name) and
+                    (_options.SETTINGS[name]["of_atoms"] or (name == "color" and _core.is_of_file(values[0])))
+                    for name, values in pairs)
         named = {name for name, _ in pairs}
         made = _made([pair for pair in self._given if pair[0] not in named] + pairs, extra, areas_of)
-        if any(name in ("interfaces", "split", "surface-of") for name, _ in made[0]) and not self.groups:
-            raise ValueError("interfaces, split and surface_of: expected groups [hint: read(..., group_by=\"chain\")]")
-        return Surface(_called(self._core.surface, *made, **how), made)
+        if any(name in ("interfaces", "split", "surface-of") for name, _ in made[0]) and not self.groups and \
+                "group-by" not in named:
+            raise ValueError("interfaces, split and surface_of: expected groups [hint: surface(..., group_by=\"chain\")]")
+        return Surface(_called(self._core.surface, *made, again, **how), made)
 
 
-Molecule.surface.__doc__ = Molecule.surface.__doc__.rstrip() + "\n" + _options.documented("surface") + "\n"
+Molecule.surface.__doc__ = Molecule.surface.__doc__.rstrip() + "\n" + _options.documented("molecule") + "\n"
 
 
 def read(source, *, groups=None, progress=None, threads=0, **options):
@@ -178,7 +224,8 @@ def read(source, *, groups=None, progress=None, threads=0, **options):
     progress: a function of stage and fraction; True shows a bar of tqdm.
     threads: threads at most; 0: all.
 
-    Keywords of surface() are taken, too, and are the defaults of Molecule.surface().
+    Keywords of surface() are taken, too, and are the defaults of Molecule.surface(). Questions about the atoms, as pore,
+    pocket_at and palette, are for Molecule.surface(): here they give a DeprecationWarning.
 
     Returns a Molecule: positions (n, 3) and radii (n,) float64 [Å], names, residues and chains of the n atoms.
 
@@ -187,6 +234,14 @@ def read(source, *, groups=None, progress=None, threads=0, **options):
 
     Keywords:
     """
+    asked = sorted(_options.ASKED_LATER & {name for name, value in options.items() if value is not None})
+    if asked:
+        warnings.warn(f"read: {', '.join(asked)} will be of Molecule.surface() alone", DeprecationWarning, stacklevel=2)
+    return _read(source, groups, progress, threads, options)
+
+
+def _read(source, groups, progress, threads, options):
+    """read(), and what asks for the surface at once."""
     given = _options.given(options, "atoms", ("groups", "progress", "threads"))
     if groups is not None and not (hasattr(groups, "items") and all(
             isinstance(k, str) and isinstance(v, str) for k, v in groups.items())):

@@ -71,19 +71,24 @@ def _texts(name, value):
 def given(options, where, more=()):
     """The pairs (setting, values) of keywords.
 
-    where: "atoms": those of surface() are taken, too; "surface": those that atoms need are refused.
+    where: "atoms": those of surface() are taken, too; "molecule": those that choose the balls are refused; "surface": all
+    that atoms need are.
     """
     pairs = []
     for name, value in options.items():
         if name not in KEYWORDS:
             raise unknown(name, [*KEYWORDS, *more])
         row = KEYWORDS[name]
-        if where == "surface" and row["of_atoms"]:
+        if row["of_atoms"] and (where == "surface" or (where == "molecule" and row["chooses_balls"])):
             raise TypeError(f"{name}: is for read(), which chooses the atoms")
         texts = _texts(name, value)
         if texts is not None:
             pairs.append((row["name"], texts))
     return pairs
+
+
+# Questions about the atoms, which Molecule.surface() takes and read() will not any more.
+ASKED_LATER = {name for name, row in KEYWORDS.items() if row["of_atoms"] and not row["chooses_balls"]} - {"group_by", "charges"}
 
 
 def of_file(color, known):
@@ -108,7 +113,8 @@ def sentence(row):
 def told(where):
     """Name, type, default and text of each keyword of read() or surface()."""
     rows = [(name, TYPES[row["type"]], row["preset"] or "", sentence(row)) for name, row in KEYWORDS.items()
-            if (where == "read") == row["of_atoms"] or name == "color"]
+            if {"read": row["of_atoms"], "surface": not row["of_atoms"], "molecule": not row["chooses_balls"]}[where]
+            or name == "color"]
     extra = {"groups": GROUPS} if where == "read" else MORE
     return rows + [(name, kind, preset, f"{text[:1].upper()}{text[1:]}.") for name, (kind, preset, text) in extra.items()]
 

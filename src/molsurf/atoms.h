@@ -325,7 +325,7 @@ struct Placement {
 };
 
 /// Balls with their labels, and a record of how they were chosen.
-struct BallSet {
+struct BallSet : BallModel {
     /// Where a pore is searched for.
     struct PoreWay {
         /// An end.
@@ -337,8 +337,6 @@ struct BallSet {
         openvdb::Vec3d axis{0.0}; ///< along which it leads then, a unit vector; 0: to be found
     };
 
-    std::vector<Ball> balls;
-    std::vector<Decay> decays; ///< one a ball; empty if there are no resolution rules
     std::vector<ResolutionGroup> resolutions; ///< one for each rule, in their order
     std::vector<std::int32_t> resolutionOf;   ///< index of each ball's rule, or -1; empty if there
                                               ///< are no rules

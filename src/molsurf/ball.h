@@ -2,11 +2,12 @@
 #pragma once
 
 /// @file
-/// Balls: all that the numerical stages know of a molecule.
+/// Balls: all that the kernel knows of a molecule.
 
 #include <openvdb/Types.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace molsurf
 {
@@ -24,6 +25,12 @@ struct Ball {
 struct Decay {
     float rate = 0.0f;  ///< C [1/Å^2], >= 0; 0: the rate that the options of the run give
     float level = 0.0f; ///< no unit; above 0 swells the ball, below 0 shrinks it
+};
+
+/// The balls of a molecule: all that the kernel knows of it.
+struct BallModel {
+    std::vector<Ball> balls;
+    std::vector<Decay> decays; ///< one a ball; empty: the options give one for all
 };
 
 } // namespace molsurf

@@ -5,7 +5,7 @@
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/io/commit.h"
-#include "molsurf/surface/influence.h"
+#include "molsurf/pipeline/influence.h"
 
 #include <optional>
 

@@ -18,13 +18,13 @@
 #include "molsurf/mesh/check_arrays.h"
 #include "molsurf/picture/draw_mesh.h"
 #include "molsurf/picture/write_png.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/structure/archive.h"
 #include "molsurf/structure/detect_format.h"
 #include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/file_settings.h"
 #include "molsurf/surface/solver_files.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <deque>

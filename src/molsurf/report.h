@@ -388,6 +388,7 @@ struct Report {
     std::optional<Pore> pore;                            ///< if it was asked for
     std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are
                          ///< none
+    std::vector<std::pair<std::string, double>> measures; ///< numbers that were asked for, by name
     std::vector<Table> tables; ///< areas by atom, by residue and so on, if its caller adds them
 
     /// Adds to the time of a stage, which may run more than once.

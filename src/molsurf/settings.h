@@ -54,6 +54,8 @@ struct Setting {
     double low = std::numeric_limits<double>::quiet_NaN();  ///< least and largest number; not a
     double high = std::numeric_limits<double>::quiet_NaN(); ///< number: see the text
     bool ofAtoms = false;                                   ///< whether readAtoms() needs it
+    bool choosesBalls =
+        false; ///< whether it says which atoms are used, or how large their balls are
     std::vector<SurfaceKind> kinds = {}; ///< the surfaces that it changes; empty: all
     /// Sets it; several values are for SettingType::Rules alone, and none is for a switch.
     /// @throws Error(ErrorKind::Usage) for a value that it cannot have

@@ -18,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace molsurf
@@ -30,8 +31,11 @@ struct ContactArea {
     double distance;                  ///< of their centres [Å]
 };
 
-/// The surface of a molecule, as a level set and as a mesh.
-struct MolecularSurface {
+/// The surface of a molecule. `surface` is null if parts have surfaces of their own, whose level
+/// sets are then among `fields`, and for a unit of a whole. `mesh` is of the whole: units are
+/// joined, and copies of prototypes are parts. `ballAreas` of a symmetric unit are of its own balls
+/// alone.
+struct MolecularSurface : LevelSetSurface {
     /// A vertex on the border of a symmetric unit (Placement::unit): in unit k it is the vertex
     /// `other` of the unit that motion k after `motion` makes.
     struct SharedVertex {
@@ -49,35 +53,17 @@ struct MolecularSurface {
         std::vector<char> besideGap{};
     };
 
-    /// Signed distance from the molecular surface [Å], negative inside, on voxels of edge
-    /// SurfaceOptions::voxel near it. It is null if parts have surfaces of their own, whose level
-    /// sets are then among `fields`, and for a unit of a whole.
-    openvdb::FloatGrid::Ptr surface;
-    std::vector<openvdb::GridBase::Ptr> fields; ///< the grids that SurfaceOptions::fields names
-    Mesh mesh; ///< of the whole, closed, with its vertices on the surface: units are joined, and
-               ///< copies of prototypes are parts
+    MolecularSurface() = default;
+    MolecularSurface(LevelSetSurface made) : LevelSetSurface(std::move(made)) {}
+
     std::vector<SharedVertex> shared; ///< used by the library alone
-    /// If it was asked for, the part of the surface that belongs to each ball, in the
-    /// order of the caller's; they add up to the area of the whole [Å^2]. Solvent-accessible and
-    /// van der Waals surfaces have them as exposedAreas() gives them. Of the solvent-excluded
-    /// surface they are in closed form, too: where a probe rests on several balls, a point belongs
-    /// to that of them for which |x - x_i|^2 - r_i^2 is least. A point of another surface belongs
-    /// to the ball whose own surface is nearest. Of a symmetric unit its own balls alone.
-    std::vector<double> ballAreas;
-    /// Beside these, if the balls have values, the mean of the value on each ball's part of the
-    /// surface; not a number where it has none.
+    /// Used by the library alone: the grid of the curvature that colours show, if `fields` lack it.
+    openvdb::GridPtrVec shown;
+    /// Beside `ballAreas`, if the balls have values, the mean of the value on each ball's part of
+    /// the surface; not a number where it has none.
     std::vector<double> ballValues;
     /// If they were asked for, what contactAreas() gives with the probe of the surface.
     std::vector<ContactArea> contacts;
-    Report report; ///< measures of the surface; its caller fills in command, input and the like
-
-    /// Returns the level set, if there is one, and the fields.
-    openvdb::GridPtrVec grids() const
-    {
-        openvdb::GridPtrVec all = fields;
-        if (surface) all.insert(all.begin(), surface);
-        return all;
-    }
 };
 
 /// The active voxels of a grid, in the order of its tree. The centre of voxel ijk lies at

@@ -139,7 +139,7 @@ CASES = {
     "picture/atom_model.cpp": [
         ('--show "resid 1-9=sticks"', f"vdb_molsurf 1crn.pdb {FAST} --show 'resid 1-9' -o a.png",
          f"vdb_molsurf 1crn.pdb {FAST} --show 'resid 1-9=sticks' -o a.png")],
-    "surface/check_balls.cpp": [
+    "pipeline/check_balls.cpp": [
         ("multiply them by 10", f"vdb_molsurf nm.xyzr {FAST} -o a.ply", f"vdb_molsurf tube.xyzr {FAST} -o b.ply")],
     "tools/draw_result.cpp": [
         ("--show pockets=all", "vdb_molsurf 4at1.ent.gz --voxel 0.7 --surface ses --show pockets --size 60 -o a.png",
@@ -157,11 +157,11 @@ CASES = {
         ("did you mean --version?", "vdb_molsurf -version", "vdb_molsurf --version"),
         ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
-    "surface/check_mesh.cpp": [
+    "pipeline/check_mesh.cpp": [
         ("--voxel 0.3", "vdb_molsurf 1ubq.pdb --surface vdw -o a.ply", "vdb_molsurf 1ubq.pdb --surface vdw --voxel 0.38 -o b.ply")],
-    "surface/remesh_run.cpp": [
+    "pipeline/remesh_run.cpp": [
         ("--remesh 0.36", "vdb_molsurf one.xyzr --surface vdw --remesh 1 -o a.ply", "vdb_molsurf one.xyzr --surface vdw --remesh 0.36 -o b.ply")],
-    "surface/pose_error.cpp": [
+    "pipeline/pose_error.cpp": [
         ("--lambda 0.04", "vdb_molsurf 1crn.pdb --lambda 0.1 --voxel 1 -o a.ply", "vdb_molsurf 1crn.pdb --lambda 0.04 --voxel 1 -o b.ply")],
     "surface/settings.cpp": [
         ("--group-by chain --split group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 {FAST} --split chain -o a.ply",
@@ -251,7 +251,7 @@ CASES = {
     "bricks/brick_file.cpp": [
         ("run the brick again with --force", f"{PLAN}; {RUN}; echo junk >> plan.1.brick; {MERGE}",
          f"vdb_molsurf bricks run plan.json 1 --force && {MERGE}")],
-    "surface/whole_only.cpp": [
+    "surface/product_table.cpp": [
         ("in one piece", "vdb_molsurf bricks plan 1crn.pdb --bricks 2 --voxel 2 --color mean-curvature -o plan.json",
          "vdb_molsurf 1crn.pdb --voxel 2 --color mean-curvature -o a.ply"),
         ("in one piece", "vdb_molsurf 1crn.pdb --voxel 0.2 --memory 62M --fill-cavities -o a.ply",
@@ -266,7 +266,7 @@ CASES = {
          f"vdb_molsurf 1d3z.pdb.gz --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply"),
         ("--frames FIRST-", f"vdb_molsurf 1d3z.pdb.gz --frames 10-99 {FAST} -o a.ply",
          f"vdb_molsurf 1d3z.pdb.gz --frames 10- {FAST} -o a.ply")],
-    "surface/surface_kind.cpp": [
+    "pipeline/surface_kind.cpp": [
         ("a --voxel of 0.15", "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 1 -o a.ply",
          "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 0.15 -o a.ply"),
         ("a --voxel of 0.05", "vdb_molsurf dot.xyzr --surface vdw --voxel 2 -o a.ply",
@@ -617,8 +617,8 @@ UNTRIED = {
                                     "unzip": "it takes unzip", "tar -xf": "it takes a tar archive", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
     "structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
     "selection/superpose.cpp": {"`select` takes one chain of each": "cli.superpose follows it"},
-    "surface/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
-    "surface/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
+    "pipeline/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
+    "pipeline/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
     "surface/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},
     "surface/options.cpp": {"`kind` ses": "the program never asks for it"},
     "surface/run.cpp": {"`surface` sas": "the program refuses it before the library does"},
@@ -734,7 +734,7 @@ class Hints(Followed):
                     "ulimit -v 800000; vdb_molsurf_nanoshaper fine.prm",
                     "ulimit -v 800000; vdb_molsurf_nanoshaper coarse.prm",
                     "ulimit -v 800000; vdb_molsurf_nanoshaper few.prm")
-        self.follow("surface/check_balls.cpp", "--voxel 0.5",
+        self.follow("pipeline/check_balls.cpp", "--voxel 0.5",
                     "ulimit -v 500000; vdb_molsurf ball.xyzr --surface sas --voxel 0.05 -o a.ply",
                     "ulimit -v 500000; vdb_molsurf ball.xyzr --surface sas --voxel 0.5 -o a.ply")
 

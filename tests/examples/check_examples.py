@@ -17,7 +17,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(ROOT / "scripts"))
 
 # Most files of code that an addition touches.
-MOST = {"format": 2, "colour": 2, "kind": 3, "measure": 4, "grid": 3, "option": 4}
+MOST = {"format": 2, "colour": 2, "kind": 3, "measure": 4, "grid": 3, "option": 4, "product": 2}
 
 
 def hunks(patch):
@@ -90,6 +90,10 @@ def use(tool, folder):
 
     same("sphericity of a ball", True, abs(report(ball, "--surface", "vdw")["sphericity"] - 1) < 1e-6)
     same("sphericity of crambin", True, 0.3 < before["sphericity"] < 0.9)
+
+    run(ball, "--surface", "vdw", "--voxel", 0.25, "--measures", "girth", "-o", folder / "x.json")
+    girth = json.loads((folder / "x.json").read_text())["measures"]["girth"]
+    same("area of the section of a ball", True, abs(girth / (9 * 3.14159265) - 1) < 2e-3)
 
     run(crambin, "--fields", "deviatoric_curvature", "-o", folder / "x.ply", "-o", folder / "x.vdb")
     same("attribute of .ply", True, b"property float deviatoric_curvature" in (folder / "x.ply").read_bytes()[:2000])

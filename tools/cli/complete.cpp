@@ -13,13 +13,13 @@
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/spline/curvature.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/frame_source.h"
+#include "molsurf/surface/product_table.h"
 #include "molsurf/surface/solver_files.h"
-#include "molsurf/surface/surface_kind.h"
-#include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -7,11 +7,11 @@
 #include "molsurf/bricks.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/view_file.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/settings.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/surface/set_value.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -409,7 +409,8 @@ OptionGroup surfaceOptions()
              fileOption("walls", Build), setting("remesh", wholes | Convert),
              setting("density", wholes | Convert), setting("adapt", wholes | Convert),
              setting("fields", surfaces), attributes, shownIn(Grids, setting("vdb-half", surfaces)),
-             shownIn(Numbers, setting("curvature-totals", wholes))},
+             shownIn(Numbers, setting("curvature-totals", wholes)),
+             shownIn(Numbers, setting("measures", wholes))},
             {{"vdb_molsurf 1crn.pdb --surface ses --voxel 0.25 -o 1crn.ply",
               "the solvent-excluded surface, fine"},
              {"vdb_molsurf 1crn.pdb --fields mean_curvature -o 1crn.vdb -o 1crn.ply",

@@ -5,7 +5,7 @@
 
 #include "molsurf/color/color_table.h"
 #include "molsurf/io/output_file.h"
-#include "molsurf/surface/surface_kind.h"
+#include "molsurf/pipeline/surface_kind.h"
 
 #include <algorithm>
 #include <optional>

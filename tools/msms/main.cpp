@@ -12,9 +12,9 @@
 #include "terminal.h"
 
 #include "molsurf/error.h"
+#include "molsurf/pipeline/check_balls.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
-#include "molsurf/surface/check_balls.h"
 
 #include <openvdb/openvdb.h>
 

@@ -11,8 +11,8 @@
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/thin.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/surface.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <array>

@@ -14,10 +14,10 @@
 #include "molsurf/io/output_buffer.h"
 #include "molsurf/io/write_mesh.h"
 #include "molsurf/mesh/measure.h"
+#include "molsurf/pipeline/check_balls.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/surface.h"
-#include "molsurf/surface/check_balls.h"
 
 #include <openvdb/openvdb.h>
 

@@ -6,9 +6,9 @@
 #include "molsurf/core/may_pass.h"
 #include "molsurf/error.h"
 #include "molsurf/io/json_number.h"
+#include "molsurf/pipeline/check_balls.h"
 #include "molsurf/selection/scalar_map.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface/check_balls.h"
 
 #include <nlohmann/json.hpp>
 #include <tbb/parallel_sort.h>

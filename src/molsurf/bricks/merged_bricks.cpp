@@ -5,7 +5,7 @@
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/mesh/measure.h"
-#include "molsurf/surface/surface_kind.h"
+#include "molsurf/pipeline/surface_kind.h"
 
 #include <algorithm>
 #include <filesystem>

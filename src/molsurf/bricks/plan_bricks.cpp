@@ -6,12 +6,12 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/pipeline/check_balls.h"
+#include "molsurf/pipeline/influence.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface/check_balls.h"
 #include "molsurf/surface/field_table.h"
-#include "molsurf/surface/influence.h"
 #include "molsurf/surface/pockets.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -313,7 +313,7 @@ public:
           atomsHeld_(double(atoms_)),
           occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), most, progress)),
           weight_(occupancy_.sample.every),
-          excluded_(isMeasured(atoms, options) && offsetOf(options) > 0.0)
+          excluded_(isMeasured(options) && offsetOf(options) > 0.0)
     {
     }
 

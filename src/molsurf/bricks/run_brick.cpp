@@ -4,9 +4,11 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
 #include "molsurf/levelset/round_ridges.h"
+#include "molsurf/pipeline/derived_grids.h"
+#include "molsurf/pipeline/influence.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface/extra_grids.h"
-#include "molsurf/surface/influence.h"
+#include "molsurf/surface/field_table.h"
+#include "molsurf/surface/label_surface.h"
 #include "molsurf/topology/walls.h"
 
 #include <algorithm>
@@ -156,8 +158,8 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
                Progress& progress)
 {
     const CoordBBox& box = scope.region.owned;
-    SurfaceRun run(atoms, options, scope, progress);
-    MolecularSurface& result = run.result();
+    SurfaceRun run(atoms, {options, options}, scope, progress);
+    LevelSetSurface& result = run.result();
     if (!atoms.balls.empty()) {
         run.density();
         run.flow();
@@ -170,19 +172,25 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     run.dropSpecks();
     run.curvatures();
     turnOffOutside(*result.surface, box);
-    run.grids();
+    addFieldsOfRun(options.fields, run);
     run.freeFields();
 
     Brick brick;
+    Stopwatch watch(result.report);
     cutMesh(run, options, scope.region, brick, progress);
-    run.labels();
-    brick.mesh.mesh = std::move(result.mesh);
-    for (const auto& grid : result.grids()) brick.grids.push_back(owned(grid, box));
+    watch.stop("mesh");
+    MolecularSurface made = run.finish();
+    watch = Stopwatch(made.report);
+    progress.update("color", 0.0);
+    labelPart(atoms, options, run.labelReach(), progress, made);
+    watch.stop("color");
+    brick.mesh.mesh = std::move(made.mesh);
+    for (const auto& grid : made.grids()) brick.grids.push_back(owned(grid, box));
     if (options.halfFloats) saveAsHalf(brick.grids);
-    brick.evolution = result.report.evolution;
+    brick.evolution = made.report.evolution;
     brick.displacements = run.displacements();
-    brick.groups = result.report.groups;
-    brick.seconds = result.report.seconds;
+    brick.groups = made.report.groups;
+    brick.seconds = made.report.seconds;
     return brick;
 }
 

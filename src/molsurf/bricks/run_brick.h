@@ -7,8 +7,8 @@
 #include "molsurf/atoms.h"
 #include "molsurf/bricks/brick.h"
 #include "molsurf/options.h"
-#include "molsurf/surface/surface_run.h"
-#include "molsurf/surface/whole_only.h"
+#include "molsurf/pipeline/surface_run.h"
+#include "molsurf/surface/product_table.h"
 
 namespace molsurf
 {

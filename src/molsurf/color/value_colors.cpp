@@ -3,6 +3,7 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/scalar_map.h"
 
 #include <openvdb/tree/LeafManager.h>
@@ -175,6 +176,13 @@ void addValues(const BallSet& atoms, double outward, const Labels& nearest, doub
             mesh.colors[v] = points.colorOf(value);
         }
     });
+}
+
+double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceSpec& spec)
+{
+    const KindRow& row = rowOf(spec.kind);
+    const bool out = row.hasProbe && !row.hasOffset; // already
+    return coloring.outward.value_or(out ? 0.0 : spec.probe);
 }
 
 } // namespace molsurf

@@ -78,4 +78,8 @@ private:
 void addValues(const BallSet& atoms, double outward, const Labels& nearest, double reach,
                const Progress& progress, Mesh& mesh);
 
+/// Gives how far outside of the surface a potential is taken [Å]: where the coloring does not say
+/// it, a probe radius, if the surface is not that far from the atoms itself.
+double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceSpec& spec);
+
 } // namespace molsurf

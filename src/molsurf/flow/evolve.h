@@ -8,7 +8,7 @@
 #include "molsurf/flow/metric.h"
 #include "molsurf/flow/narrow_band.h"
 #include "molsurf/grid/region.h"
-#include "molsurf/options.h"
+#include "molsurf/kernel.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 

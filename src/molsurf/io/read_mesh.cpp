@@ -5,9 +5,9 @@
 #include "molsurf/error.h"
 #include "molsurf/io/mesh_text.h"
 #include "molsurf/mesh/check_arrays.h"
-#include "molsurf/mesh/distance.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/progress.h"
+#include "molsurf/proximity/distance.h"
 #include "molsurf/structure/load_text.h"
 
 #include <cstring>

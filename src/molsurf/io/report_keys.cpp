@@ -234,6 +234,7 @@ constexpr ReportKey keyTable[] = {
     {"symmetry.open_vertices", "",
      "Edges of a unit's border without a partner: triangles fill holes there"},
     {"warnings", "", "One text each"},
+    {"measures", "", "Numbers that were asked for, by name, in the unit of the option's page"},
     {"areas", "", "Requested tables by their names; each row has the keys of the .csv"}};
 
 } // namespace

@@ -2,9 +2,9 @@
 #include "molsurf/io/write_fem.h"
 
 #include "molsurf/io/output_buffer.h"
-#include "molsurf/mesh/embree.h"
 #include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/ray_scene.h"
+#include "molsurf/proximity/embree.h"
+#include "molsurf/proximity/ray_scene.h"
 
 #include <algorithm>
 #include <array>

@@ -326,6 +326,7 @@ std::string reportText(const Report& report)
     };
     if (report.voxel == 0.0) json["voxel"] = nullptr;
     if (report.surface.triangles == 0) dropMesh(json["surface"]);
+    for (const auto& [name, value] : report.measures) json["measures"][name] = value;
     if (!report.tables.empty()) json["areas"] = tablesJson(report.tables);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -535,8 +535,7 @@ AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progre
                                               rule.style->word + ": there is nothing to show");
     }
     if (model.mesh.triangles.size() > without)
-        model.instances.push_back(
-            {TubePart, "", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, Vec3d(0.0), white});
+        model.instances.push_back({Motion::identity(), TubePart, "", white});
     return model;
 }
 
@@ -551,11 +550,7 @@ void addBodies(const Mesh& bodies, AtomModel& model)
     }
     model.mesh = bodies;
     for (std::size_t place = 0; place < model.pockets.size(); ++place)
-        model.instances.push_back({place,
-                                   model.pockets[place].name,
-                                   {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-                                   Vec3d(0.0),
-                                   white});
+        model.instances.push_back({Motion::identity(), place, model.pockets[place].name, white});
 }
 
 } // namespace molsurf

@@ -5,10 +5,10 @@
 /// The surfaces that the rays of a picture meet.
 
 #include "molsurf/color/crisp_borders.h"
-#include "molsurf/mesh/ray_scene.h"
 #include "molsurf/picture/atom_model.h"
 #include "molsurf/picture/style.h"
 #include "molsurf/picture/view.h"
+#include "molsurf/proximity/ray_scene.h"
 
 #include <algorithm>
 #include <array>

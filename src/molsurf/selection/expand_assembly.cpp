@@ -181,8 +181,7 @@ Placement instanceAssembly(const AssemblyCopies& assembly, std::vector<Ball>& ou
             placement.begin.push_back(out.size());
             placement.numbers.push_back(int(prototypeOf.size()));
         }
-        placement.instances.push_back(
-            {*motion.op, found->second, motion.op->name});
+        placement.instances.push_back({*motion.op, found->second, motion.op->name});
     }
     placement.copies = prototypeOf.size();
     return placement;

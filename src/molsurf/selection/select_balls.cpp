@@ -585,23 +585,6 @@ void checkOptions(const SelectOptions& options)
     }
 }
 
-BallSet readAtoms(const std::string& path, const SelectOptions& options, double probe,
-                  const Progress& progress)
-{
-    checkOptions(options);
-    return selectBalls(readStructure(path, options.maxInput, progress, options.memory), options,
-                       probe, progress);
-}
-
-BallSet readAtoms(FileContent file, const SelectOptions& options, double probe,
-                  const Progress& progress)
-{
-    checkOptions(options);
-    return selectBalls(parseStructure(std::move(file.bytes), file.name, options.maxInput, progress,
-                                      options.memory),
-                       options, probe, progress);
-}
-
 namespace
 {
 

@@ -6,9 +6,9 @@
 #include "molsurf/balls/power_cells.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/check_arrays.h"
-#include "molsurf/surface/check_balls.h"
+#include "molsurf/pipeline/check_balls.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/surface/smooth_gradients.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <string>
 #include <utility>

@@ -5,9 +5,9 @@
 /// Two surfaces side by side, whatever they were made from.
 
 #include "molsurf/mesh.h"
-#include "molsurf/mesh/deviation.h"
-#include "molsurf/mesh/distance.h"
 #include "molsurf/progress.h"
+#include "molsurf/proximity/deviation.h"
+#include "molsurf/proximity/distance.h"
 #include "molsurf/surface.h"
 
 #include <openvdb/openvdb.h>

@@ -8,11 +8,11 @@
 #include "molsurf/error.h"
 #include "molsurf/grid/grid_like.h"
 #include "molsurf/mesh/check_arrays.h"
-#include "molsurf/mesh/distance.h"
 #include "molsurf/mesh/topology.h"
-#include "molsurf/surface/check_balls.h"
+#include "molsurf/pipeline/check_balls.h"
+#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/proximity/distance.h"
 #include "molsurf/surface/compare.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/panels.h"
 #include "molsurf/picture/view.h"
-#include "molsurf/surface/surface_kind.h"
+#include "molsurf/pipeline/surface_kind.h"
 
 #include <algorithm>
 #include <map>

@@ -4,11 +4,10 @@
 #include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/grid/grid_like.h"
+#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/pipeline/surface_run.h"
 #include "molsurf/spline/curvature.h"
-#include "molsurf/surface/extra_grids.h"
-#include "molsurf/surface/surface_kind.h"
-#include "molsurf/surface/surface_run.h"
-#include "molsurf/surface/whole_only.h"
+#include "molsurf/surface/product_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -133,8 +132,9 @@ FieldRow valueField()
     FieldRow row = fromBalls("value", 1, [](FieldSource& from) -> GridBase::Ptr {
         const ColorKind& kind = kindOf(from.options.color);
         if (kind.ofCurvature) {
-            const auto grid =
-                findGrid<openvdb::FloatGrid>(from.result.fields, kind.attribute)->deepCopy();
+            auto known = findGrid<openvdb::FloatGrid>(from.result.fields, kind.attribute);
+            if (!known) known = findGrid<openvdb::FloatGrid>(from.result.shown, kind.attribute);
+            const auto grid = known->deepCopy();
             grid->setName("value");
             describeNumber(kind.attribute, kind.unit, *grid);
             return grid;
@@ -212,9 +212,15 @@ std::vector<std::string> fieldNames()
     return names;
 }
 
-bool hasField(const std::vector<std::string>& fields, const std::string& name)
+void addFieldsOfRun(const std::vector<std::string>& fields, SurfaceRun& run)
 {
-    return std::find(fields.begin(), fields.end(), name) != fields.end();
+    const openvdb::GridPtrVec curvatures = run.curvatureFields();
+    for (const FieldRow& row : fieldTable()) {
+        if (!hasField(fields, row.name)) continue;
+        if (row.ofRun) run.result().fields.push_back(row.ofRun(run));
+        for (const auto& grid : curvatures)
+            if (grid->getName() == row.name) run.result().fields.push_back(grid);
+    }
 }
 
 } // namespace molsurf

@@ -6,6 +6,7 @@
 
 #include "molsurf/color/label.h"
 #include "molsurf/color/value_colors.h"
+#include "molsurf/pipeline/derived_grids.h"
 #include "molsurf/surface.h"
 
 #include <array>
@@ -70,7 +71,7 @@ const FieldRow* findField(const std::string& name);
 /// The names of those that need nothing else to be asked for.
 std::vector<std::string> fieldNames();
 
-/// Whether a list of fields names one.
-bool hasField(const std::vector<std::string>& fields, const std::string& name);
+/// Adds the fields that the options ask for and that the stages of a run leave to its surface.
+void addFieldsOfRun(const std::vector<std::string>& fields, SurfaceRun& run);
 
 } // namespace molsurf

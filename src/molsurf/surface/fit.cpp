@@ -4,7 +4,7 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/balls/excluded_points.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/surface/closed_form.h"
+#include "molsurf/pipeline/closed_form.h"
 
 #include <algorithm>
 #include <array>

@@ -3,12 +3,13 @@
 
 #include "molsurf/balls/contacts.h"
 #include "molsurf/core/quiet_progress.h"
+#include "molsurf/pipeline/closed_form.h"
+#include "molsurf/pipeline/influence.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface/closed_form.h"
 #include "molsurf/surface/fit.h"
-#include "molsurf/surface/influence.h"
 #include "molsurf/surface/run.h"
-#include "molsurf/surface/surface_kind.h"
+#include "molsurf/surface/whole_run.h"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +38,7 @@ Areas areasOf(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls, Progr
         return {std::accumulate(areas.begin(), areas.end(), 0.0), std::move(areas)};
     }
     QuietProgress quiet(progress);
-    Wanted wanted = measuresAlone();
+    Wanted wanted = measuresOfWhole();
     wanted.ballAreas = ofBalls;
     MolecularSurface made = makePrototypes(atoms, {spec, wanted}, &quiet);
     return {made.report.surface.area, std::move(made.ballAreas)};

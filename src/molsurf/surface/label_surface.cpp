@@ -6,8 +6,8 @@
 #include "molsurf/color/label.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/surface/field_table.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,9 @@
 
 #include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/surface/run.h"
-#include "molsurf/surface/surface_kind.h"
+#include "molsurf/surface/whole_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ double volumeOf(const BallSet& atoms, const SurfaceSpec& spec, const Progress& p
 {
     QuietProgress quiet(progress);
     try {
-        return makePrototypes(atoms, {spec, measuresAlone()}, &quiet).report.surface.outerVolume;
+        return makePrototypes(atoms, {spec, measuresOfWhole()}, &quiet).report.surface.outerVolume;
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::Numeric) throw;
         return 0.0; // nothing is left

@@ -2,9 +2,11 @@
 #include "molsurf/options.h"
 
 #include "molsurf/error.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/surface/field_table.h"
-#include "molsurf/surface/surface_kind.h"
+#include "molsurf/surface/product_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -33,16 +35,6 @@ void checkPockets(const Wanted::PocketRule& pocket)
 }
 
 } // namespace
-
-const char* nameOf(Regularizer regularizer)
-{
-    return regularizer == Regularizer::Gradient ? "gradient" : "area";
-}
-
-const char* nameOf(Flow flow)
-{
-    return flow == Flow::Rest ? "rest" : flow == Flow::Newton ? "newton" : "paper";
-}
 
 void checkOptions(const SurfaceOptions& options)
 {
@@ -75,6 +67,11 @@ void checkOptions(const SurfaceOptions& options)
         if (!row) throw Error(ErrorKind::Usage, "`fields`: there is no field '" + field + "'");
         if (row->needs && !row->given(options))
             throw Error(ErrorKind::Usage, "`fields` " + field + ": expected " + row->needs);
+    }
+    for (const std::string& name : options.measures) {
+        const auto& rows = measureTable();
+        if (std::none_of(rows.begin(), rows.end(), [&](auto& row) { return row.name == name; }))
+            throw Error(ErrorKind::Usage, "`measures`: there is no measure '" + name + "'");
     }
     if (!options.grid && !hasClosedForm(options))
         throw Error(ErrorKind::Usage,

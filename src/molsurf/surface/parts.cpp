@@ -7,9 +7,9 @@
 #include "molsurf/error.h"
 #include "molsurf/mesh/mesh_shape.h"
 #include "molsurf/mesh/statistics.h"
+#include "molsurf/pipeline/check_balls.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface/check_balls.h"
-#include "molsurf/surface/surface_kind.h"
 #include "molsurf/surface/whole_run.h"
 
 #include <algorithm>
@@ -233,7 +233,7 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
         try {
             const BallSet own = subset(all, part.balls);
             checkBalls(own.balls, options, Pieces::One, availableMemory());
-            result = runWhole(own, {ofKind(options, part.kind), options}, quiet).surface;
+            result = runWhole(own, {ofKind(options, part.kind), options}, quiet);
             result.report.atoms = part.balls.size();
         } catch (const Error& e) {
             throw Error(e, part.name + ": " + e.what());
@@ -244,6 +244,10 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
         for (const auto& field : result.fields) {
             field->setName(field->getName() + suffix);
             whole.fields.push_back(field);
+        }
+        for (const auto& field : result.shown) {
+            field->setName(field->getName() + suffix);
+            whole.shown.push_back(field);
         }
         append(whole.mesh, result.mesh, part.name);
         add(whole.report, result.report, part.name);

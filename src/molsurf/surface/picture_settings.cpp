@@ -6,9 +6,9 @@
 #include "molsurf/io/holds.h"
 #include "molsurf/picture/style.h"
 #include "molsurf/picture/view_file.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/structure/text_fields.h"
 #include "molsurf/surface/set_value.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <charconv>
 #include <cmath>

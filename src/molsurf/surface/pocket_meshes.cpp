@@ -3,8 +3,8 @@
 
 #include "molsurf/core/cancel.h"
 #include "molsurf/grid/grid_like.h"
-#include "molsurf/mesh/deviation.h"
 #include "molsurf/mesh/volume_mesher.h"
+#include "molsurf/proximity/deviation.h"
 #include "molsurf/surface/pockets.h"
 
 #include <cmath>

@@ -4,9 +4,9 @@
 #include "molsurf/color/palette.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/words.h"
+#include "molsurf/pipeline/surface_run.h"
 #include "molsurf/pockets/find_pockets.h"
 #include "molsurf/surface/field_table.h"
-#include "molsurf/surface/surface_run.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 
 #include "molsurf/color/pore_color.h"
 #include "molsurf/core/perpendicular.h"
+#include "molsurf/pipeline/surface_run.h"
 #include "molsurf/pockets/find_pore.h"
-#include "molsurf/surface/surface_run.h"
 
 #include <algorithm>
 #include <cmath>

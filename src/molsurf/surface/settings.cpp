@@ -2,14 +2,15 @@
 #include "molsurf/settings.h"
 
 #include "molsurf/color/color_map.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/ball_values.h"
 #include "molsurf/selection/choose_copies.h"
 #include "molsurf/selection/coarse_grain.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/selection/radii.h"
 #include "molsurf/surface/field_table.h"
+#include "molsurf/surface/product_table.h"
 #include "molsurf/surface/set_value.h"
-#include "molsurf/surface/surface_kind.h"
 
 #include <algorithm>
 #include <cmath>
@@ -320,6 +321,28 @@ Setting fieldSetting()
     return fields;
 }
 
+Setting measureSetting()
+{
+    std::string text = "numbers of the whole surface for the report, by commas:";
+    Values words;
+    for (const MeasureRow& row : measureTable()) {
+        words.push_back(row.name);
+        text += std::string("\n") + row.name +
+                (*row.unit ? std::string(" [") + row.unit + "]" : "") + ": " + row.help;
+    }
+    Setting measures{"measures", SettingType::List, "LIST", text, "none", words};
+    measures.set = [words](Settings& s, const Values& values) {
+        s.options.measures.clear();
+        for (const std::string& word : splitWords(values.back())) {
+            if (std::count(words.begin(), words.end(), lowered(word)) == 0)
+                wrongValue("measures", joinWords(words, " or "), word, didYouMean(word, words));
+            if (!hasField(s.options.measures, lowered(word)))
+                s.options.measures.push_back(lowered(word));
+        }
+    };
+    return measures;
+}
+
 Setting kindSetting()
 {
     Setting row = word("surface", "KIND", kindText(), MOLSURF_OF(options.kind), surfaceKinds());
@@ -354,7 +377,8 @@ std::vector<Setting> surfaceSettings()
         flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
              MOLSURF_OF(options.halfFloats)),
         flag("curvature-totals", "integrate curvature over the surface, for the report",
-             MOLSURF_OF(options.curvatureTotals))};
+             MOLSURF_OF(options.curvatureTotals)),
+        measureSetting()};
 }
 
 /// A number that is 0 unless it is given, with its range.
@@ -458,7 +482,7 @@ std::vector<Setting> resolutionSettings()
         for (const CoarseRule& rule : s.atoms.coarse) all.push_back(nameOf(rule));
         return all.empty() ? "atom" : joinWords(all, ", ");
     };
-    resolution.ofAtoms = coarse.ofAtoms = true;
+    for (Setting* row : {&resolution, &coarse}) row->ofAtoms = row->choosesBalls = true;
     return {
         onlyOf(evolves, within(0.01, 10.0,
                                number("epsilon", "E",
@@ -782,7 +806,10 @@ const std::vector<Setting>& settingTable()
 {
     static const std::vector<Setting> all = [] {
         std::vector<Setting> rows = atomSettings();
-        for (Setting& row : rows) row.ofAtoms = true;
+        for (Setting& row : rows) {
+            row.ofAtoms = true;
+            row.choosesBalls = row.name != std::string("charges");
+        }
         for (auto* more : {surfaceSettings, meshSettings, resolutionSettings, groupSettings,
                            coloringSettings, pocketSettings, flowSettings})
             for (Setting& row : more()) rows.push_back(std::move(row));

@@ -6,8 +6,8 @@
 #include "molsurf/flow/rest.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/mesh/patch_gradients.h"
-#include "molsurf/surface/carrier_of.h"
-#include "molsurf/surface/surface_kind.h"
+#include "molsurf/pipeline/carrier_of.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/topology/gaps_of_sum.h"
 
 #include <algorithm>

@@ -7,11 +7,11 @@
 #include "molsurf/color/palette.h"
 #include "molsurf/error.h"
 #include "molsurf/grid/grid_like.h"
+#include "molsurf/pipeline/derived_grids.h"
+#include "molsurf/pipeline/surface_run.h"
 #include "molsurf/selection/groups.h"
 #include "molsurf/surface/compare.h"
-#include "molsurf/surface/extra_grids.h"
 #include "molsurf/surface/field_table.h"
-#include "molsurf/surface/surface_run.h"
 
 #include <openvdb/tools/ChangeBackground.h>
 
@@ -204,7 +204,7 @@ void addValues(const Source& from, Mesh& mesh)
 }
 
 /// Adds a grid of colours to a surface, placed as that of the file.
-void addColorGrid(const Source& from, const Vec3SGrid::Ptr& grid, MolecularSurface& result)
+void addColorGrid(const Source& from, const Vec3SGrid::Ptr& grid, LevelSetSurface& result)
 {
     for (const auto& other : from.grids)
         if (other->getName() == "surface" || from.grids.size() == 1)
@@ -212,7 +212,7 @@ void addColorGrid(const Source& from, const Vec3SGrid::Ptr& grid, MolecularSurfa
     result.fields.push_back(grid);
 }
 
-void colorByLabel(const Source& from, const Int32Grid& ids, MolecularSurface& result)
+void colorByLabel(const Source& from, const Int32Grid& ids, LevelSetSurface& result)
 {
     const std::vector<Group> labels = labelsOf(ids, from.metadata);
     for (const std::int32_t id : valuesAt(ids, from.voxels))
@@ -227,7 +227,7 @@ void colorByLabel(const Source& from, const Int32Grid& ids, MolecularSurface& re
 
 /// @param[in] levelSet  that the spline was fitted to
 void colorByCurvature(const Source& from, ColorBy by, FloatGrid& levelSet, const Spline& spline,
-                      Progress& progress, MolecularSurface& result)
+                      Progress& progress, LevelSetSurface& result)
 {
     colorByCurvature(by, from.coloring, result.mesh);
     const auto local = levelSet.copy();
@@ -269,7 +269,7 @@ ColorBy storedColors(const Source& from)
 /// @throws Error(ErrorKind::Input) if the file cannot give the colours
 void addColors(const Source& from, bool kept, ColorBy by, SurfaceRun& run, Progress& progress)
 {
-    MolecularSurface& result = run.result();
+    LevelSetSurface& result = run.result();
     const auto colors = findGrid<Vec3SGrid>(from.grids, "Cd");
     const auto chains = findGrid<Int32Grid>(from.grids, "chain_id");
     const auto groups = findGrid<Int32Grid>(from.grids, "group_id");
@@ -327,11 +327,12 @@ StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::Met
         stored.warnings.push_back("no grid spline: it is fitted to the level set, close to the "
                                   "one that was [hint: `fields` spline when it is built]");
     for (const std::string& warning : operand.warnings) stored.warnings.push_back(warning);
-    SurfaceRun run(stored.names, {withVoxel(options, operand.voxel), options}, Scope(), progress);
+    const BallModel none;
+    SurfaceRun run(none, {withVoxel(options, operand.voxel), options}, Scope(), progress);
     const Motion pose = operand.surface.pose;
     run.resume(std::move(operand.surface.mesh), std::move(*operand.surface.spline),
                operand.levelSet);
-    MolecularSurface& result = run.result();
+    LevelSetSurface& result = run.result();
     run.measure();
     run.describeCurvature();
     run.remesh();

@@ -8,14 +8,14 @@
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
+#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/pipeline/surface_run.h"
 #include "molsurf/surface/fit.h"
 #include "molsurf/surface/label_surface.h"
-#include "molsurf/surface/surface_kind.h"
-#include "molsurf/surface/surface_run.h"
+#include "molsurf/surface/product_table.h"
 #include "molsurf/surface/unit_border.h"
 #include "molsurf/surface/unit_cut.h"
 #include "molsurf/surface/unit_union.h"
-#include "molsurf/surface/whole_only.h"
 
 #include <algorithm>
 #include <cmath>
@@ -226,7 +226,9 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     if (!options.grid) return runUnitWithoutGrid(atoms, options, progress);
     const Placement& placement = atoms.placement;
     const Placement::Unit& unit = *placement.unit;
-    SurfaceRun run(atoms, options, Scope(), progress);
+    Scope scope;
+    scope.isUnit = true;
+    SurfaceRun run(atoms, {options, options}, scope, progress);
     run.toMesh();
 
     Stopwatch watch(run.result().report);
@@ -272,8 +274,11 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     checkFit(fit, area / double(placement.order()), surface);
     watch.stop("unit");
     run.freeFields();
-    run.labels(std::move(known));
     MolecularSurface result = run.finish();
+    watch = Stopwatch(result.report);
+    progress.update("color", 0.0);
+    labelSurface(atoms, options, std::move(known), run.labelReach(), progress, result);
+    watch.stop("color");
     result.surface.reset();
     result.shared = fit.shared;
     result.report.symmetry = Report::Symmetry{unit.pointGroup, unit.inverse.size(), unit.copies,

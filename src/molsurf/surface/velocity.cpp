@@ -4,8 +4,8 @@
 #include "molsurf/balls/nearest_ball.h"
 #include "molsurf/color/label.h"
 #include "molsurf/grid/grid_like.h"
+#include "molsurf/pipeline/influence.h"
 #include "molsurf/surface/field_table.h"
-#include "molsurf/surface/influence.h"
 
 #include <openvdb/tools/Morphology.h>
 

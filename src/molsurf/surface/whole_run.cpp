@@ -2,13 +2,16 @@
 #include "molsurf/surface/whole_run.h"
 
 #include "molsurf/balls/placed_ball.h"
+#include "molsurf/color/curvature_colors.h"
+#include "molsurf/pipeline/closed_form.h"
+#include "molsurf/pipeline/pose_error.h"
+#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/pipeline/surface_run.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface/closed_form.h"
+#include "molsurf/surface/field_table.h"
 #include "molsurf/surface/label_surface.h"
-#include "molsurf/surface/pose_error.h"
-#include "molsurf/surface/surface_kind.h"
-#include "molsurf/surface/surface_run.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace molsurf
@@ -17,33 +20,53 @@ namespace molsurf
 namespace
 {
 
-/// The surface of balls in their order.
-WholeSurface runAsTheyAre(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
+/// The grid of the curvature that grids of colours show, if the fields lack it.
+openvdb::GridPtrVec curvatureShown(const SurfaceOptions& options, SurfaceRun& run,
+                                   Progress& progress)
 {
-    SurfaceRun run(atoms, options, Scope(), progress);
-    run.toMesh();
-    run.measure();
-    run.describeCurvature();
-    run.takeClosedForm();
-    run.remesh();
-    run.curvatures();
-    run.integrateCurvature();
-    run.grids();
+    const char* shown = curvatureNameOf(options.color);
+    const bool ofGrids = std::any_of(options.fields.begin(), options.fields.end(),
+                                     [](auto& name) { return findField(name)->ofColors; });
+    if (!shown || !ofGrids || hasField(options.fields, shown)) return {};
+    return curvatureGrids(*run.result().surface, run.currentSpline(), {shown}, progress);
+}
+
+/// The surface of balls in their order.
+MolecularSurface runAsTheyAre(const BallSet& atoms, const SurfaceOptions& options,
+                              Progress& progress)
+{
+    KernelProducts products = options;
+    products.ballAreas = options.ballAreas || (atoms.labels && !atoms.labels->groups.empty());
+    SurfaceRun run(atoms, {options, products}, Scope(), progress);
+    run.toMeasures();
+    std::vector<double> areas; // of the mesh before its triangles are made anew
+    if (options.meshEdge > 0.0 && products.ballAreas && !run.knowsAreas())
+        areas = areasOnMesh(atoms, run.result().mesh, run.result().report.surface.area,
+                            run.labelReach(), progress);
+    run.finishMesh();
+    addFieldsOfRun(options.fields, run);
+    openvdb::GridPtrVec shown = curvatureShown(options, run, progress);
     run.freeFields();
-    run.labels();
-    std::vector<double> areas = run.takeAreas();
-    return {run.finish(), std::move(areas)};
+    MolecularSurface result = run.finish();
+    result.shown = std::move(shown);
+    if (!result.ballAreas.empty()) areas = std::move(result.ballAreas);
+    Stopwatch watch(result.report);
+    progress.update("color", 0.0);
+    result.ballAreas =
+        labelSurface(atoms, options, std::move(areas), run.labelReach(), progress, result);
+    watch.stop("color");
+    return result;
 }
 
 } // namespace
 
-WholeSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
+MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
     const BallSet ordered = inSpatialOrder(atoms);
-    WholeSurface made = runAsTheyAre(ordered, options, progress);
-    if (dependsOnPose(options)) estimatePoseError(ordered, options, progress, made.surface.report);
+    MolecularSurface made = runAsTheyAre(ordered, options, progress);
+    if (dependsOnPose(options)) estimatePoseError(ordered, options, progress, made.report);
     const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
-    for (std::vector<double>* values : {&made.areas, &made.surface.ballValues}) {
+    for (std::vector<double>* values : {&made.ballAreas, &made.ballValues}) {
         std::vector<double> back(values->size());
         for (std::size_t i = 0; i < values->size(); ++i) back[std::size_t(order[i])] = (*values)[i];
         *values = std::move(back);
@@ -51,10 +74,10 @@ WholeSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progr
     return made;
 }
 
-WholeSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
+MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& options,
+                                Progress& progress)
 {
-    WholeSurface made;
-    MolecularSurface& result = made.surface;
+    MolecularSurface result;
     Stopwatch watch(result.report);
     progress.update("areas", 0.0);
     ClosedForm measured = measureClosedForm(atoms.balls, options, progress);
@@ -64,9 +87,17 @@ WholeSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& options,
     if (atoms.labels && atoms.labels->values)
         result.ballValues.assign(atoms.labels->values->valueOf.begin(),
                                  atoms.labels->values->valueOf.end());
-    made.areas = labelSurface(atoms, options, std::move(measured.ballAreas), 0.0, progress, result);
+    result.ballAreas =
+        labelSurface(atoms, options, std::move(measured.ballAreas), 0.0, progress, result);
     watch.stop("areas");
-    return made;
+    return result;
+}
+
+Wanted measuresOfWhole()
+{
+    Wanted wanted;
+    wanted.energy = wanted.meshLabels = false;
+    return wanted;
 }
 
 } // namespace molsurf

@@ -6,25 +6,22 @@
 
 #include "molsurf/surface.h"
 
-#include <vector>
-
 namespace molsurf
 {
 
-/// A surface, and the areas of the balls that it was made of.
-struct WholeSurface {
-    MolecularSurface surface;  ///< without MolecularSurface::ballAreas
-    std::vector<double> areas; ///< of the balls in their order [Å^2]; empty: they are not known
-};
-
 /// Makes the surface of all balls, which are computed in spatial order. It leaves aside what the
 /// options ask for of parts, interfaces and contacts.
+/// @return with areas of the balls where they are known, asked for or not
 /// @throws Error as makeSurface()
-WholeSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progress& progress);
+MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, Progress& progress);
 
 /// Gives what is known of the surface of all balls in closed form, without voxels.
+/// @return as runWhole()
 /// @throws Error as makeSurface()
-WholeSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& options,
-                            Progress& progress);
+MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& options,
+                                Progress& progress);
+
+/// Nothing but the level set, the mesh and their measures.
+Wanted measuresOfWhole();
 
 } // namespace molsurf

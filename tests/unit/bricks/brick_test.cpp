@@ -17,7 +17,7 @@
 #include "molsurf/selection/scalar_map.h"
 #include "molsurf/selection/subset.h"
 #include "molsurf/surface/field_table.h"
-#include "molsurf/surface/whole_only.h"
+#include "molsurf/surface/product_table.h"
 #include "support/folder.h"
 #include "support/mesh_checks.h"
 

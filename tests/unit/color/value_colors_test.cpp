@@ -2,8 +2,8 @@
 #include "molsurf/color/value_colors.h"
 
 #include "molsurf/color/palette.h"
+#include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/scalar_map.h"
-#include "molsurf/surface/surface_kind.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>

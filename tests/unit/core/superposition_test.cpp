@@ -94,7 +94,7 @@ TEST(Superposition, IsNoMirrorImage)
     for (const Vec3d& x : onto) points.emplace_back(-x[0], x[1], x[2]);
     const auto found = superposition(points, onto);
     ASSERT_TRUE(found);
-    EXPECT_NEAR(found->rows[0].cross(found->rows[1]).dot(found->rows[2]), 1.0, 1e-12);
+    EXPECT_NEAR(found->matrix().det(), 1.0, 1e-12);
     EXPECT_GT(found->rmsd, 1.0);
 }
 

@@ -5,7 +5,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/io/write_mesh.h"
-#include "molsurf/mesh/deviation.h"
+#include "molsurf/proximity/deviation.h"
 #include "support/solids.h"
 
 #include <gtest/gtest.h>

@@ -65,8 +65,12 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
 /// The paths of all keys of a value, but for those of maps whose keys are names.
 void addPaths(const Json& json, const std::string& path, Names& out)
 {
-    const std::set<std::string> open = {"seconds", "areas", "surface.mean_curvature.percentiles",
-                                        "surface.gaussian_curvature", "parts[].surface"};
+    const std::set<std::string> open = {"seconds",
+                                        "measures",
+                                        "areas",
+                                        "surface.mean_curvature.percentiles",
+                                        "surface.gaussian_curvature",
+                                        "parts[].surface"};
     if (open.count(path) > 0) return;
     if (json.is_array() && !json.empty() && json[0].is_object())
         addPaths(json[0], path + "[]", out);
@@ -98,6 +102,7 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.parts.resize(1);
     report.instances.resize(1);
     report.symmetry = Report::Symmetry();
+    report.measures = {{"sphericity", 0.5}};
     report.tables = {{"atoms", {}}};
     report.surface.shape = SurfaceReport::Shape();
     Names written, listed;

@@ -92,9 +92,9 @@ TEST(DrawMesh, CopiesLookLikeWhatTheyAreCopiesOf)
     options.up = {0, 1, 0};
     const Picture expected = drawMesh(whole, options, Progress());
     const std::array<std::array<double, 3>, 3> same = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    options.instances = {{0, "1", same, {0, 5, 0}, red},
-                         {0, "2", {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {-1, 0, 1}, blue},
-                         {1, "3", same, {0, 0, -4}, red}};
+    options.instances = {{{same, {0, 5, 0}}, 0, "1", red},
+                         {{{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {-1, 0, 1}}, 0, "2", blue},
+                         {{same, {0, 0, -4}}, 1, "3", red}};
     const Picture copies = drawMesh(parts, options, Progress());
     // The frame comes from the outermost vertices alone, and the triangles of a turned ball differ.
     ASSERT_NEAR(copies.height, expected.height, 1);

@@ -129,8 +129,8 @@ TEST_F(LayerTest, PiecesKeepTheirBorders)
     mesh.parts = {{"plate", 0}};
     lookWide();
     for (const double border : {0.0013, 0.0037, 0.0062, 0.0088}) { // in each of the samples
-        options.instances = {{0, "1", unturned, {border, 0, 0}, gray},
-                             {0, "2", unturned, {border - 5.0, 0, 0}, gray}};
+        options.instances = {{{unturned, {border, 0, 0}}, 0, "1", gray},
+                             {{unturned, {border - 5.0, 0, 0}}, 0, "2", gray}};
         const Layers layers = traced();
         forEachSample(layers.view, layers.first, [&](const Seen& seen, double x) {
             if (!seen.any() || std::abs(x - border) < 1e-4) return;
@@ -176,7 +176,7 @@ TEST_F(LayerTest, AtomsBehindAWallAreNotInItsShadow)
     AtomModel model;
     test::addBall(model.mesh, Vec3f(0.0f), 1.0f, gray);
     model.mesh.parts = {{"ball", 0}};
-    model.instances = {{0, "", unturned, {0, 0, 0}, gray}};
+    model.instances = {{{unturned, {0, 0, 0}}, 0, "", gray}};
     options.model = std::make_shared<AtomModel>(model);
     options.opacity = 0.5;
     options.width = 210;

@@ -54,8 +54,7 @@ TEST(WriteHtml, ACutHasTheColoursOfBalls)
     for (const auto& array : header["arrays"])
         found += array["name"] == "cut_chain" && array["count"] == 2 && array["components"] == 3;
     EXPECT_EQ(found, 1);
-    page.instances = {
-        {0, "1", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, openvdb::Vec3d(0.0), {1, 2, 3}}};
+    page.instances = {{Motion::identity(), 0, "1", {1, 2, 3}}};
     EXPECT_TRUE(headerOf(mesh, page)["cut"].is_null()); // balls of copies are not there
 }
 
@@ -64,11 +63,8 @@ TEST(WriteHtml, CopiesArePlacedAboutTheMiddleOfTheMesh)
     const Mesh coarse = triangle(4);
     HtmlPage page;
     page.copiesFirst = true;
-    page.instances = {{0,
-                       "1",
-                       {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, // x to y
-                       openvdb::Vec3d(100, 0, 0.12345),
-                       {1, 2, 3}}};
+    const Motion xToY{{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, openvdb::Vec3d(100, 0, 0.12345)};
+    page.instances = {{xToY, 0, "1", {1, 2, 3}}};
     page.coarser = {&coarse};
     const auto header = headerOf(triangle(2), page);
     ASSERT_EQ(header["copies"].size(), 1u);

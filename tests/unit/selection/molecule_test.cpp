@@ -124,7 +124,7 @@ Structure withCopy(double x)
 {
     const TempFile file("a.pdb", polymer + record("HETATM", 3, " C1", "LIG", 2, x, "C"));
     Structure s = readStructure(file.path());
-    Operator here{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, openvdb::Vec3d(0.0), "1"};
+    Operator here{Motion::identity(), "1"};
     Operator there = here;
     there.translation = openvdb::Vec3d(20.0, 0.0, 0.0);
     s.assemblies.push_back({"1", {{{}, {here, there}}}, ""});

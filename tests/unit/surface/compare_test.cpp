@@ -2,7 +2,7 @@
 #include "molsurf/surface/compare.h"
 
 #include "molsurf/error.h"
-#include "molsurf/surface/extra_grids.h"
+#include "molsurf/pipeline/derived_grids.h"
 #include "support/fields.h"
 #include "support/runs.h"
 #include "support/solids.h"

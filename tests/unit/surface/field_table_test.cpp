@@ -3,7 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/grid/grid_like.h"
-#include "molsurf/surface/whole_only.h"
+#include "molsurf/surface/product_table.h"
 #include "support/runs.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/surface/product_table.h"
+
+#include "molsurf/color/color_table.h"
+#include "molsurf/color/curvature_colors.h"
+#include "molsurf/core/parallel.h"
+#include "molsurf/core/quiet_progress.h"
+#include "molsurf/error.h"
+#include "molsurf/pipeline/closed_form.h"
+#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/surface/field_table.h"
+#include "molsurf/surface/interfaces.h"
+#include "molsurf/surface/pockets.h"
+#include "molsurf/surface/pore.h"
+#include "molsurf/surface/whole_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace molsurf
+{
+
+namespace
+{
+
+using Options = SurfaceOptions;
+
+/// Whether there are several prototypes, each of which has a surface of its own.
+bool ofPrototypes(const BallSet& atoms)
+{
+    return atoms.placement.prototypes() > 1;
+}
+
+void needGroups(const BallSet& atoms, const Options&)
+{
+    if (!atoms.labels || atoms.labels->groups.empty())
+        throw Error(ErrorKind::Input, "there are no groups to surface alone");
+}
+
+void needOnePlace(const BallSet& atoms, const Options&)
+{
+    if (!atoms.placement.isWhole())
+        throw Error(ErrorKind::Usage,
+                    "`pore`: expected one surface, and not `instances` or `bySymmetry`");
+}
+
+void needOnePrototype(const BallSet& atoms, const Options&)
+{
+    if (ofPrototypes(atoms))
+        throw Error(ErrorKind::Usage, "`pockets`: expected one surface, and not `instances`");
+}
+
+/// The surface that areas are of.
+SurfaceSpec areasShown(const Options& options)
+{
+    return ofKind(options, options.areasOf.value_or(options.kind));
+}
+
+void needAreas(const BallSet& atoms, const Options& options)
+{
+    checkWay(ByAtom, options);
+    if (ofPrototypes(atoms))
+        throw Error(ErrorKind::Usage, "areas of atoms: expected one surface, and not `split`");
+    if (atoms.placement.unit && !isBoundary(areasShown(options)))
+        throw Error(ErrorKind::Usage, "areas of atoms by symmetry: expected a surface in "
+                                      "closed form [hint: `surface` sas or vdw]");
+}
+
+/// Areas of atoms on a surface that is made only to measure them.
+std::vector<double> areasApart(const BallSet& atoms, const SurfaceSpec& spec, Progress& progress)
+{
+    if (!isClosedForm(spec)) {
+        QuietProgress quiet(progress);
+        Wanted wanted = measuresOfWhole();
+        wanted.ballAreas = true;
+        return runWhole(atoms, {spec, wanted}, quiet).ballAreas;
+    }
+    std::vector<double> areas = measureClosedForm(atoms.balls, spec, progress).ballAreas;
+    areas.resize(atoms.own());
+    return areas;
+}
+
+void makeAreas(MadeRun& run)
+{
+    const bool same = run.areasOf.kind == run.options.kind && !run.ballAreas.empty();
+    run.result.ballAreas =
+        same ? std::move(run.ballAreas) : areasApart(run.atoms, run.areasOf, run.progress);
+}
+
+void nameAreas(MadeRun& run)
+{
+    run.result.report.areasOf = nameOf(run.areasOf.kind);
+}
+
+void makeInterfaces(MadeRun& run)
+{
+    measureInterfaces(run.atoms, run.areasOf, run.options.ballAreas, run.progress,
+                      run.result.report);
+}
+
+/// The grid of colours by curvature, and that of the curvature itself where it was asked for.
+void makeCurvatureColors(MadeRun& run)
+{
+    const Options& options = run.options;
+    openvdb::GridPtrVec grids = run.result.fields;
+    grids.insert(grids.end(), run.result.shown.begin(), run.result.shown.end());
+    if (hasField(options.fields, "Cd")) {
+        const auto colors =
+            curvatureColors(options.color, run.atoms.coloring, run.result.mesh, grids);
+        run.result.fields.insert(run.result.fields.end(), colors.begin(), colors.end());
+    }
+    run.result.shown.clear();
+}
+
+void makeMeasures(MadeRun& run)
+{
+    for (const MeasureRow& row : measureTable())
+        if (hasField(run.options.measures, row.name))
+            run.result.report.measures.push_back({row.name, row.of(run.result, run.progress)});
+}
+
+/// The area of a ball of the outer volume by the outer area: at most 1, of a ball.
+double sphericity(const MolecularSurface& surface, const Progress&)
+{
+    const SurfaceReport& s = surface.report.surface;
+    return std::cbrt(36.0 * M_PI * s.outerVolume * s.outerVolume) / s.outerArea;
+}
+
+/// The root of the mean of |x - c|^2 over the volume that the mesh encloses, c its centre. The
+/// integrals over a tetrahedron (0, a, b, c) of volume v are v (a + b + c)/4 for x, and
+/// v (|a|^2 + |b|^2 + |c|^2 + |a + b + c|^2)/20 for |x|^2.
+double gyrationRadius(const MolecularSurface& surface, const Progress& progress)
+{
+    struct Moments {
+        double volume = 0.0;
+        openvdb::Vec3d first{0.0};
+        double second = 0.0;
+        Moments& operator+=(const Moments& other)
+        {
+            volume += other.volume;
+            first += other.first;
+            second += other.second;
+            return *this;
+        }
+    };
+    const Mesh& mesh = surface.mesh;
+    if (mesh.triangles.empty()) return std::nan("");
+    const openvdb::Vec3d origin(mesh.positions.front());
+    constexpr std::size_t chunk = 4096; // triangles
+    const auto sumOf = [&](std::size_t c) {
+        Moments sum;
+        const std::size_t end = std::min(mesh.triangles.size(), (c + 1) * chunk);
+        for (std::size_t t = c * chunk; t < end; ++t) {
+            const auto corner = [&](std::size_t k) {
+                return openvdb::Vec3d(mesh.positions[mesh.triangles[t][k]]) - origin;
+            };
+            const openvdb::Vec3d x = corner(0), y = corner(1), z = corner(2), all = x + y + z;
+            const double v = x.dot(y.cross(z)) / 6.0;
+            sum += {v, v / 4.0 * all,
+                    v / 20.0 * (x.lengthSqr() + y.lengthSqr() + z.lengthSqr() + all.lengthSqr())};
+        }
+        return sum;
+    };
+    const Moments sum =
+        parallelSum<Moments>((mesh.triangles.size() + chunk - 1) / chunk, progress, sumOf);
+    return std::sqrt(sum.second / sum.volume - (sum.first / sum.volume).lengthSqr());
+}
+
+constexpr unsigned always = 0;
+
+} // namespace
+
+const std::vector<MeasureRow>& measureTable()
+{
+    static const std::vector<MeasureRow> rows = {
+        {"sphericity", "", "1 for a ball, else less", InBricks, sphericity},
+        {"gyration_radius", "Å", "of the volume inside the mesh", InBricks | InClosedForm,
+         gyrationRadius}};
+    return rows;
+}
+
+const std::vector<ProductRow>& productTable()
+{
+    static const std::vector<ProductRow> rows = {
+        {"`surface`", InClosedForm, [](auto&, auto& o) { return !isClosedForm(o); }},
+        {"`split`", InBricks | BySymmetry | InClosedForm | ByAtom,
+         [](auto&, auto& o) { return o.split; }, needGroups},
+        {"`surfaceOf`", InBricks | BySymmetry | InClosedForm | ByAtom,
+         [](auto&, auto& o) { return !o.surfaceOf.empty(); }, needGroups},
+        {"`instances`", always, [](auto& atoms, auto&) { return ofPrototypes(atoms); }, needGroups},
+        {"colours by curvature", always, [](auto&, auto& o) { return kindOf(o.color).ofCurvature; },
+         nullptr, makeCurvatureColors},
+        {"areas", always, [](auto&, auto& o) { return o.ballAreas || o.contacts || o.interfaces; },
+         nullptr, nameAreas},
+        {"`interfaces`", InBricks, [](auto&, auto& o) { return o.interfaces; }, needGroups,
+         makeInterfaces},
+        {"`pockets`", InBricks | BySymmetry, [](auto&, auto& o) { return wantsPockets(o); },
+         needOnePrototype,
+         [](MadeRun& run) { addPockets(run.atoms, run.options, run.progress, run.result); }},
+        {"`pore`", always, [](auto& atoms, auto&) { return atoms.pore.has_value(); }, needOnePlace,
+         [](MadeRun& run) { addPore(run.atoms, run.progress, run.result.report); }},
+        {"areas of atoms", always, [](auto&, auto& o) { return o.ballAreas; }, needAreas,
+         makeAreas},
+        {"contacts", always, [](auto&, auto& o) { return o.contacts; }, nullptr,
+         [](MadeRun& run) {
+             run.result.contacts =
+                 contactAreas(run.atoms.balls, probeOf(run.areasOf), run.progress);
+         }},
+        {"`measures`", always, [](auto&, auto& o) { return !o.measures.empty(); }, nullptr,
+         makeMeasures},
+        {"`halfFloats`", always, [](auto&, auto& o) { return o.halfFloats; }, nullptr,
+         [](MadeRun& run) { saveAsHalf(run.result.grids()); }},
+        // The stages make the others.
+        {"`matchVolume`", InBricks | BySymmetry, [](auto&, auto& o) { return o.matchVolume; }},
+        {"`fillCavities`", InBricks | BySymmetry | InClosedForm,
+         [](auto&, auto& o) { return o.fillCavities; }},
+        {"`minWall`", InBricks, [](auto&, auto& o) { return o.minWall > 0.0; }},
+        {"a solvent-excluded surface without `grid`", BySymmetry,
+         [](auto&, auto& o) { return !o.grid && !isBoundary(o); }},
+        {"`curvatureTotals`", InBricks | BySymmetry | InClosedForm,
+         [](auto&, auto& o) { return o.curvatureTotals; }},
+        {"`remesh`", InBricks | BySymmetry | InClosedForm,
+         [](auto&, auto& o) { return o.meshEdge > 0.0; }},
+        {"`splineLevel`", InBricks, [](auto&, auto& o) { return o.splineLevel > 0; }},
+        {"`flow` paper", InBricks,
+         [](auto&, auto& o) { return hasFlow(o.kind) && o.evolution.flow == Flow::Paper; }},
+        {"`color` by curvature", InBricks,
+         [](auto&, auto& o) { return kindOf(o.color).ofCurvature; }}};
+    return rows;
+}
+
+std::string missingIn(Way way, const SurfaceOptions& options)
+{
+    static const BallSet none; // what only atoms ask for has no way that lacks it
+    for (const ProductRow& row : productTable())
+        if ((row.missingIn & way) && row.asked(none, options)) return row.name;
+    for (const FieldRow& row : fieldTable())
+        if ((row.missingIn & way) && hasField(options.fields, row.name))
+            return "`fields` " + row.name;
+    for (const MeasureRow& row : measureTable())
+        if ((row.missingIn & way) && hasField(options.measures, row.name))
+            return std::string("`measures` ") + row.name;
+    return "";
+}
+
+bool hasClosedForm(const SurfaceOptions& options)
+{
+    return missingIn(InClosedForm, options).empty();
+}
+
+void checkWay(Way way, const SurfaceOptions& options)
+{
+    const std::string what = missingIn(way, options);
+    if (what.empty()) return;
+    if (way == ByAtom)
+        throw Error(ErrorKind::Usage, "areas of atoms: expected one surface, and not " + what);
+    throw Error(ErrorKind::Usage,
+                what + (way == InBricks ? " needs the whole molecule at once: it is not for bricks "
+                                          "[hint: a run in one piece, on a machine that has enough "
+                                          "memory]"
+                                        : " needs the whole assembly at once [hint: without "
+                                          "`bySymmetry`]"));
+}
+
+void checkProducts(const BallSet& atoms, const SurfaceOptions& options)
+{
+    for (const ProductRow& row : productTable())
+        if (row.check && row.asked(atoms, options)) row.check(atoms, options);
+}
+
+void makeProducts(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
+                  MolecularSurface& result)
+{
+    MadeRun run{atoms, options, areasShown(options), std::move(result.ballAreas), progress, result};
+    result.ballAreas.clear();
+    for (const ProductRow& row : productTable())
+        if (row.make && row.asked(atoms, options)) row.make(run);
+}
+
+} // namespace molsurf

@@ -1,0 +1,17 @@
+# The test "kernel": the example and the command make one level set of the same balls, the atoms of a PDB file.
+file(STRINGS ${INPUT} lines REGEX "^ATOM")
+set(radius_C 1.7)
+set(radius_N 1.55)
+set(radius_O 1.52)
+set(radius_S 1.8)
+set(balls "")
+foreach(line IN LISTS lines)
+  string(SUBSTRING "${line}" 30 24 place)
+  string(SUBSTRING "${line}" 77 1 element)
+  string(APPEND balls "${place} ${radius_${element}}\n")
+endforeach()
+file(WRITE ${WORK}/balls.xyzr "${balls}")
+execute_process(COMMAND ${EXAMPLE} ${WORK}/balls.xyzr ${WORK}/example.vdb COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${COMMAND} ${WORK}/balls.xyzr --surface ses -q --force -o ${WORK}/command.vdb
+                COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${SAME} ${WORK}/example.vdb ${WORK}/command.vdb COMMAND_ERROR_IS_FATAL ANY)
