@@ -46,7 +46,7 @@ using GroupWords = std::vector<std::pair<std::string, std::string>>;
 /// Atoms, with what they were asked for.
 struct Molecule {
     std::shared_ptr<BallSet> atoms;
-    std::string source; ///< the name of the file
+    std::string source;                              ///< the name of the file
     std::shared_ptr<const molsurf::Molecule> file{}; ///< null: of a pickle
     GroupWords groups{};
 };
@@ -150,8 +150,8 @@ Molecule readMolecule(const std::string& name, const std::optional<nb::bytes>& c
         out.file = std::make_shared<const molsurf::Molecule>(
             content ? molsurf::Molecule(std::move(bytes), progress, atoms.maxInput, atoms.memory)
                     : molsurf::Molecule(name, progress, atoms.maxInput, atoms.memory));
-        out.atoms = std::make_shared<BallSet>(
-            out.file->balls(atoms, probeOf(settings.options), progress));
+        out.atoms =
+            std::make_shared<BallSet>(out.file->balls(atoms, probeOf(settings.options), progress));
         return 0;
     });
     return out;
@@ -172,8 +172,7 @@ std::shared_ptr<BallSet> asked(const Molecule& molecule, const Given& given, con
     const Settings settings = settingsOf(given, molecule.groups);
     const double probe = probeOf(settings.options);
     return run(how, [&](const Progress& progress) {
-        auto out =
-            std::make_shared<BallSet>(molecule.file->balls(settings.atoms, probe, progress));
+        auto out = std::make_shared<BallSet>(molecule.file->balls(settings.atoms, probe, progress));
         std::vector<std::int32_t> atoms;
         std::vector<Vec3d> places;
         bool moved = false;
@@ -373,7 +372,7 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
     const BallSet& atoms = *surface.atoms;
     MolecularSurface& result = surface.result;
     const double probe = probeOf(surface.options);
-    if (name == "atoms") return dictOf(atomTable(atoms, probe, result));
+    if (name == "atoms") return dictOf(atomTable(atoms, result));
     if (name == "residues") return dictOf(residueTable(atoms, probe, result));
     if (name == "interfaces") return dictOf(interfaceTable(atoms, result.report));
     if (name == "pockets") {
@@ -690,11 +689,10 @@ void addFunctions(nb::module_& m)
             return false;
         }
     });
-    m.def("read",
-          [](const std::string& name, const std::optional<nb::bytes>& content, const Given& given,
-             const GroupWords& groups, Listener progress, int threads) {
-              return readMolecule(name, content, given, groups, {progress, threads});
-          });
+    m.def("read", [](const std::string& name, const std::optional<nb::bytes>& content,
+                     const Given& given, const GroupWords& groups, Listener progress, int threads) {
+        return readMolecule(name, content, given, groups, {progress, threads});
+    });
     m.def("surface", [](const Positions& positions, const Numbers& radii, const Given& given,
                         const std::vector<std::string>& extra, const std::string& areasOf,
                         Listener progress, int threads) {

@@ -16,8 +16,8 @@ FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelse
            "proximity", "color", "io", "picture", "surface", "bricks", "tools"]
 # The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it. (The
 # function compare() of mesh.h is in surface/compare.cpp: it is for callers of the library.)
-FACE = {"error.h": "core", "progress.h": "core", "motion.h": "core", "ball.h": "balls", "kernel.h": "flow",
-        "atoms.h": "selection", "molecule.h": "selection", "options.h": "pockets",
+FACE = {"error.h": "core", "progress.h": "core", "ball.h": "core", "kernel.h": "flow",
+        "atoms.h": "selection",  "options.h": "pockets",
         "report.h": "levelset", "mesh.h": "flow", "surface.h": "surface", "files.h": "tools",
         "bricks.h": "bricks", "settings.h": "surface", "molsurf.h": "tools"}
 # Folders that know less than their place allows.
@@ -36,7 +36,7 @@ ONLY = {
 
 # The kernel, a target of its own, includes nothing else: of the face these headers.
 KERNEL = {"core", "grid", "balls", "spline", "levelset", "topology", "flow", "mesh", "pipeline"}
-KERNEL_FACE = {"error.h", "progress.h", "motion.h", "ball.h", "report.h", "mesh.h", "kernel.h"}
+KERNEL_FACE = {"error.h", "progress.h", "ball.h", "report.h", "mesh.h", "kernel.h"}
 
 # Where a library may be included: what is not named here may be included anywhere.
 LIBRARIES = {

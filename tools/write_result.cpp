@@ -119,7 +119,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     SurfaceOptions shown = call.options;
     shown.kind = shown.areasOf.value_or(shown.kind);
     Table table;
-    if (name == "atoms") table = atomTable(atoms, probeOf(shown), result);
+    if (name == "atoms") table = atomTable(atoms, result);
     if (name == "residues") table = residueTable(atoms, probeOf(shown), result);
     if (name == "contacts") table = contactTable(atoms, call.contacts, result);
     if (name == "interfaces") table = interfaceTable(atoms, result.report);

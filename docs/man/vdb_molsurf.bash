@@ -12,7 +12,7 @@ _vdb_molsurf()
         "build":--superpose) words="auto" ;;
         "build":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "build":--walls) words="all outer cavities" ;;
-        "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v" ;;
+        "build":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room depth v" ;;
         "build":--measures) words="sphericity gyration_radius" ;;
         "build":--match) words="none ses" ;;
         "build":--coarse) words="atom residue" ;;
@@ -33,7 +33,7 @@ _vdb_molsurf()
         "build":--flow) words="rest newton paper" ;;
         "build":--require) words="watertight manifold components= cavities= genus= min-angle=" ;;
         "batch":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
-        "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v" ;;
+        "batch":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room depth v" ;;
         "batch":--measures) words="sphericity gyration_radius" ;;
         "batch":--match) words="none ses" ;;
         "batch":--coarse) words="atom residue" ;;
@@ -66,7 +66,7 @@ _vdb_molsurf()
         "compare":--regularizer) words="gradient area" ;;
         "compare":--flow) words="rest newton paper" ;;
         "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx cxc pml html json png legend.svg view" ;;
-        "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v" ;;
+        "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room depth v" ;;
         "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature" ;;
         "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
         "convert":--view) words="auto" ;;
@@ -74,7 +74,7 @@ _vdb_molsurf()
         "convert":--style) words="soft glossy outline flat" ;;
         "convert":--legend) words="auto on off" ;;
         "bricks plan":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
-        "bricks plan":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room v" ;;
+        "bricks plan":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room depth v" ;;
         "bricks plan":--match) words="none ses" ;;
         "bricks plan":--coarse) words="atom residue" ;;
         "bricks plan":--group-by) words="chain entity class copy" ;;

@@ -11,7 +11,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--superpose") compadd -- 'auto'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
-    "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
+    "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "build:--measures") compadd -- 'sphericity' 'gyration_radius'; return ;;
     "build:--match") compadd -- 'none' 'ses'; return ;;
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
@@ -32,7 +32,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
-    "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
+    "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "batch:--measures") compadd -- 'sphericity' 'gyration_radius'; return ;;
     "batch:--match") compadd -- 'none' 'ses'; return ;;
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
@@ -65,7 +65,7 @@ case "$verb:$words[CURRENT-1]" in
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
     "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
-    "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
+    "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "convert:--view") compadd -- 'auto'; return ;;
@@ -73,7 +73,7 @@ case "$verb:$words[CURRENT-1]" in
     "convert:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
     "convert:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "bricks plan:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
-    "bricks plan:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'v'; return ;;
+    "bricks plan:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "bricks plan:--match") compadd -- 'none' 'ses'; return ;;
     "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
@@ -130,7 +130,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--fields:grids of the .vdb, by commas, or all of'
       '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
       '--curvature-totals:integrate curvature over the surface, for the report'
-      '--measures:numbers of the whole surface for the report, by commas\:'
+      '--measures:numbers of the whole surface for the report, by commas;'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
       '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
@@ -238,7 +238,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--fields:grids of the .vdb, by commas, or all of'
       '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
       '--curvature-totals:integrate curvature over the surface, for the report'
-      '--measures:numbers of the whole surface for the report, by commas\:'
+      '--measures:numbers of the whole surface for the report, by commas;'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
       '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'

@@ -5,7 +5,6 @@
 /// Reads atoms from a file and makes balls of them: which atoms, how large, and with which labels.
 
 #include "molsurf/ball.h"
-#include "molsurf/motion.h"
 #include "molsurf/progress.h"
 
 #include <array>
@@ -403,6 +402,44 @@ struct FileContent {
 /// Reads atoms from a file in memory; otherwise as above.
 BallSet readAtoms(FileContent file, const SelectOptions& options = {}, double probe = 0.0,
                   const Progress& progress = Progress());
+
+struct Structure;
+
+/// What a file holds: atoms, residues, chains, models, assemblies, bonds and charges. Copies share
+/// it; it does not change.
+class Molecule
+{
+public:
+    /// Reads a file; parameters and errors as of readAtoms().
+    /// @param[in] maxInput,memory  as SelectOptions::maxInput and SelectOptions::memory
+    explicit Molecule(const std::string& path, const Progress& progress = Progress(),
+                      std::size_t maxInput = 0, std::size_t memory = 0);
+
+    /// Reads a file in memory; otherwise as above.
+    explicit Molecule(FileContent file, const Progress& progress = Progress(),
+                      std::size_t maxInput = 0, std::size_t memory = 0);
+
+    /// Makes balls of atoms, as readAtoms() does.
+    BallSet balls(const SelectOptions& options = {}, double probe = 0.0,
+                  const Progress& progress = Progress()) const;
+
+    /// Finds the atoms that a selection takes, used or not.
+    /// @param[in] selection  as SelectOptions::select; empty: all
+    /// @return their places in the file, counted from 0 over all models, as Ball::atom; ascending
+    /// @throws Error(ErrorKind::Usage) if it cannot be parsed
+    /// @throws Error(ErrorKind::Input) if it matches no atom
+    std::vector<std::size_t> select(const std::string& selection) const;
+
+    /// Returns the molecule with atoms at other places.
+    /// @param[in] atoms   their places in the file
+    /// @param[in] places  one an atom [Å]
+    Molecule moved(const std::vector<std::int32_t>& atoms,
+                   const std::vector<openvdb::Vec3d>& places) const;
+
+private:
+    explicit Molecule(std::shared_ptr<const Structure> structure);
+    std::shared_ptr<const Structure> structure_;
+};
 
 /// Radii of atoms that were not read from a file [Å]: as readAtoms() gives them, but for atoms of
 /// which nothing is known.

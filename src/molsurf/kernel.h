@@ -99,10 +99,6 @@ struct KernelProducts {
                                   ///< those of surfaces in closed form
 };
 
-/// A surface, and what is made of it.
-struct KernelOptions : SurfaceSpec, KernelProducts {
-};
-
 /// A surface as a level set and as a mesh.
 struct LevelSetSurface {
     /// Signed distance from the surface [Å], negative inside, on voxels of edge SurfaceSpec::voxel

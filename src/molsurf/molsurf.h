@@ -10,7 +10,6 @@
 #include "molsurf/error.h"
 #include "molsurf/files.h"
 #include "molsurf/mesh.h"
-#include "molsurf/molecule.h"
 #include "molsurf/options.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"

@@ -62,6 +62,9 @@ struct MolecularSurface : LevelSetSurface {
     /// Beside `ballAreas`, if the balls have values, the mean of the value on each ball's part of
     /// the surface; not a number where it has none.
     std::vector<double> ballValues;
+    /// If the field "depth" was asked for, how deep the centre of each ball lies below the outer
+    /// solvent-excluded surface of the probe, or without one below the balls themselves [Å].
+    std::vector<double> ballDepths;
     /// If they were asked for, what contactAreas() gives with the probe of the surface.
     std::vector<ContactArea> contacts;
 };
@@ -189,20 +192,20 @@ private:
 };
 
 /// A row for every ball: chain, residue, number, insertion_code, label_chain, atom, altloc,
-/// element, atom_id (its place in the file, from 0), radius_A, area, and depth_A: how deep its
-/// centre lies below the outer solvent-excluded surface.
-/// @param[in] probe  radius that the surface is made with [Å]; 0: depth below the balls themselves
+/// element, atom_id (its place in the file, from 0), radius_A, area, and of a result with depths
+/// depth_A.
 /// @throws Error(ErrorKind::Usage) if the atoms have no names or the result has no areas of balls,
 ///         or of others; the message names the option that makes them
-Table atomTable(const BallSet& atoms, double probe, const MolecularSurface& result);
+Table atomTable(const BallSet& atoms, const MolecularSurface& result);
 
 /// A row for every residue: chain, residue, number, insertion_code, label_chain, atoms (how many
 /// balls), area, and for solvent-accessible surfaces relative_accessibility, the area's share of
 /// the largest that such a residue has between two glycines, not a number where that is not known.
-/// depth_A is the mean of its balls' depths, and ca_depth_A that of its CA.
+/// Of a result with depths depth_A is the mean of its balls', and ca_depth_A that of its CA.
 /// If the balls have values mean_NAME: the mean of the value on the residue's part of the surface,
 /// and integral_NAME_A2: its integral there, in the value's unit times Å^2.
-/// @param[in] probe  as for atomTable(); accessibilities are relative at 1.4 alone
+/// @param[in] probe  radius that the surface is made with [Å]; accessibilities are relative at 1.4
+///                   alone
 /// @throws as atomTable()
 Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& result);
 

@@ -621,7 +621,7 @@ UNTRIED = {
     "pipeline/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
     "surface/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},
     "surface/options.cpp": {"`kind` ses": "the program never asks for it"},
-    "surface/run.cpp": {"`surface` sas": "the program refuses it before the library does"},
+    "surface/product_table.cpp": {"`surface` sas": "the program refuses it before the library does"},
     "surface/unit_mesh.cpp": {"a .glb file": "it takes a mesh of 2^32 vertices", "a larger `voxel`": "it takes copies of 2^32 vertices"},
     "surface/unit_run.cpp": {"a smaller `voxel`": "no unit is known that gives it",
                              "edges of": "no unit is known that gives it"},

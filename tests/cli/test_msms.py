@@ -389,7 +389,7 @@ class Molecules(Msms):
         for path in (DATA / "bpti.pdb.gz", DATA / "1ubq.pdb", DATA / "1a8o.pdb.gz"):
             self.write("m.xyzrn", xyzrn(path))
             self.msms("-if", "m.xyzrn", "-of", "a")
-            self.check(0, "m.xyzrn", "--surface", "ses", "--probe", "1.5", "-o", "m.atoms.csv", "--force")
+            self.check(0, "m.xyzrn", "--surface", "ses", "--probe", "1.5", "--fields", "depth", "-o", "m.atoms.csv", "--force")
             lines = (self.folder / "m.atoms.csv").read_text().splitlines()
             rows = list(csv.DictReader(line for line in lines if line[0] != "#"))
             vertices = self.surface().positions

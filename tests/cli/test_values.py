@@ -225,8 +225,8 @@ class Values(ToolTest):
             self.assertAlmostEqual(value, math.dist(place, (20.0, 0.0, 0.0)), 3)
 
     def test_depth_is_that_of_the_table(self):
-        self.check(0, CRAMBIN, *FAST, "--surface", "ses", "--color", "depth", "--flat-values", "-o", "a.ply",
-                   "-o", "a.atoms.csv", "-o", "a.residues.csv")
+        self.check(0, CRAMBIN, *FAST, "--surface", "ses", "--color", "depth", "--flat-values", "--fields", "depth", "-o", "a.ply",
+                   "-o", "a.atoms.csv", "-o", "a.residues.csv", "-o", "a.vdb")
         rows = self.table("a.atoms.csv")
         depths = [float(row["depth_A"]) for row in rows]
         self.assertGreater(min(depths), 1.3)
@@ -238,6 +238,14 @@ class Values(ToolTest):
         own = [row for row in rows if row["number"] == first["number"]]
         self.assertAlmostEqual(float(first["depth_A"]), sum(float(r["depth_A"]) for r in own) / len(own), 9)
         self.assertEqual(first["ca_depth_A"], *(r["depth_A"] for r in own if r["atom"] == "CA"))
+        self.assertIn(" depth", self.check(0, "info", "a.vdb").stdout.decode())
+
+    def test_depth_is_made_where_it_is_asked_for(self):
+        self.check(0, CRAMBIN, *FAST, "-o", "a.atoms.csv", "-o", "a.residues.csv")
+        for name in ("a.atoms.csv", "a.residues.csv"):
+            self.assertFalse({"depth_A", "ca_depth_A"} & set(self.table(name)[0]), name)
+        self.check(0, CRAMBIN, *FAST, "--fields", "depth", "-o", "a.ply", "--force",
+                   says="--fields depth: none of the files can hold that")
 
     def test_charges(self):
         self.write("a.pqr", "ATOM 1 N LYS 1 0.0 0.0 0.0 0.8 1.8\n"

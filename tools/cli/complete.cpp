@@ -318,7 +318,9 @@ void warnOfLosses(Call& call)
     if (!call.has("fields") || call.writes(Grids)) return;
     std::vector<std::string> lost;
     for (const std::string& field : call.options.fields)
-        if (!call.writes(VertexCurvatures) || !findField(field)->atVertices) lost.push_back(field);
+        if (!(call.writes(VertexCurvatures) && findField(field)->atVertices) &&
+            !(call.writes(Areas) && findField(field)->inTables))
+            lost.push_back(field);
     if (!lost.empty())
         call.warnings.push_back("--fields " + joinWords(lost, ",") +
                                 ": none of the files can hold that [hint: -o .vdb]");

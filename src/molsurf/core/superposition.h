@@ -4,7 +4,7 @@
 /// @file
 /// The rigid motion that lays points on others.
 
-#include "molsurf/motion.h"
+#include "molsurf/ball.h"
 
 #include <cstddef>
 #include <optional>

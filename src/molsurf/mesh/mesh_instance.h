@@ -4,7 +4,7 @@
 /// @file
 /// Copies of the parts of a mesh.
 
-#include "molsurf/motion.h"
+#include "molsurf/ball.h"
 
 #include <array>
 #include <cstddef>

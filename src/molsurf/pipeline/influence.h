@@ -37,7 +37,7 @@ public:
     double onVoxels() const;
 
 private:
-    const SurfaceSpec& spec_;
+    SurfaceSpec spec_;
     GaussianExtent extent_;
 };
 

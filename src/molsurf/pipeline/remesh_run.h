@@ -6,6 +6,7 @@
 
 #include "molsurf/kernel.h"
 #include "molsurf/mesh/remesh.h"
+#include "molsurf/pipeline/surface_kind.h"
 
 #include <string>
 #include <vector>

@@ -16,6 +16,10 @@
 namespace molsurf
 {
 
+/// A surface, and what the kernel makes of it.
+struct KernelOptions : SurfaceSpec, KernelProducts {
+};
+
 /// The range of SurfaceSpec::voxel [Å].
 constexpr double minVoxel = 0.05, maxVoxel = 10.0;
 

@@ -47,7 +47,7 @@ void Stopwatch::stop(const char* stage)
 SurfaceRun::SurfaceRun(const BallModel& model, const KernelOptions& options, const Scope& scope,
                        Progress& progress)
     : model_(model), options_(options), scope_(scope), progress_(progress),
-      influence_(scope.extent ? Influence(*scope.extent, options) : Influence(model, options)),
+      influence_(scope.extent ? Influence(*scope.extent, options_) : Influence(model, options_)),
       watch_(result_.report), bumps_(options.voxel)
 {
     band_.phi.voxelSize = S_.phi.voxelSize = options.voxel;

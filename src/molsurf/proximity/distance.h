@@ -5,9 +5,9 @@
 /// The distance of any point from a surface, near or far: to triangles, or to the zero set of a
 /// spline that triangles sample. docs/math.md, section 11.
 
+#include "molsurf/ball.h"
 #include "molsurf/mesh.h"
 #include "molsurf/mesh/topology.h"
-#include "molsurf/motion.h"
 #include "molsurf/progress.h"
 #include "molsurf/proximity/closest_point.h"
 #include "molsurf/spline/spline.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/molecule.h"
+#include "molsurf/atoms.h"
 
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/select_balls.h"

@@ -5,7 +5,7 @@
 /// A molecule as it stands in its file: the atoms of all models, and the operators that build its
 /// biological assemblies.
 
-#include "molsurf/motion.h"
+#include "molsurf/ball.h"
 
 #include <array>
 #include <cstddef>

@@ -191,15 +191,15 @@ Table forceTable(const BallSet& atoms, const SurfaceSpec& spec, const Mesh& mesh
     return table;
 }
 
-Table atomTable(const BallSet& atoms, double probe, const MolecularSurface& result)
+Table atomTable(const BallSet& atoms, const MolecularSurface& result)
 {
     checkAreas(atoms, result);
     Table table{"atoms", {}};
     addAtoms(atoms, result.ballAreas.size(), table);
     table.columns.push_back({"area", result.ballAreas});
-    Numbers depth = ballDepths(atoms, probe, Progress());
-    depth.resize(result.ballAreas.size());
-    table.columns.push_back({"depth_A", std::move(depth)});
+    Numbers depth = result.ballDepths;
+    depth.resize(std::min(depth.size(), result.ballAreas.size())); // without images
+    if (!depth.empty()) table.columns.push_back({"depth_A", std::move(depth)});
     return table;
 }
 
@@ -229,7 +229,7 @@ Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& r
     constexpr double ofMaxima = 1.4; // probe [Å]
     if (result.report.areasOf == nameOf(SurfaceKind::SolventAccessible) && probe == ofMaxima)
         table.columns.push_back({"relative_accessibility", std::move(relative)});
-    addDepths(atoms, ballDepths(atoms, probe, Progress()), balls, table);
+    if (!result.ballDepths.empty()) addDepths(atoms, result.ballDepths, balls, table);
     if (!result.ballValues.empty()) addValues(atoms, balls, result, table);
     return table;
 }

@@ -190,6 +190,9 @@ const std::vector<FieldRow>& fieldTable()
             rows.back().needs = "`pockets`, too";
             rows.back().given = [](const SurfaceOptions& o) { return o.pockets; };
         }
+        rows.push_back({"depth", 1, InBricks}); // by the table of products
+        rows.back().help = "of the ball below the surface [Å]; tables of areas have it, too";
+        rows.back().inTables = true;
         rows.push_back({"v", 3, BySymmetry | InClosedForm}); // by velocityGrid()
         rows.back().atVertices = true;
         return rows;

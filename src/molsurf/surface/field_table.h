@@ -57,6 +57,7 @@ struct FieldRow {
     bool (*given)(const SurfaceOptions& options) = nullptr;
     bool needsLabels = false; ///< whether the balls need labels for it
     bool atVertices = false;  ///< whether meshes have it, too
+    bool inTables = false;    ///< whether tables of areas have it, too
     bool ofColors = false;    ///< whether it is of what SurfaceOptions::color shows
     openvdb::GridBase::Ptr (*ofRun)(SurfaceRun& run) = nullptr;
     openvdb::GridBase::Ptr (*ofBalls)(FieldSource& from) = nullptr; ///< null: it has nothing

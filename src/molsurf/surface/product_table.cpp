@@ -6,8 +6,11 @@
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
+#include "molsurf/grid/grid_like.h"
 #include "molsurf/pipeline/closed_form.h"
+#include "molsurf/pipeline/influence.h"
 #include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/selection/subset.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/interfaces.h"
 #include "molsurf/surface/pockets.h"
@@ -113,6 +116,23 @@ void makeCurvatureColors(MadeRun& run)
     run.result.shown.clear();
 }
 
+/// Depths of the balls, and their grid where there is one.
+void makeDepths(MadeRun& run)
+{
+    MolecularSurface& result = run.result;
+    result.ballDepths = ballDepths(run.atoms, probeOf(run.areasOf), run.progress);
+    if (run.options.ofParts())
+        result.report.warnings.push_back("`fields` depth: surfaces of parts have no grid of it");
+    if (!result.surface) return;
+    const double reach = Influence(run.atoms, run.options).ofLabel();
+    FieldSource from{run.atoms, run.options, result, nullptr, reach, run.progress};
+    const Labels& owners = from.owners(false);
+    result.fields.push_back(
+        gridOf<openvdb::FloatGrid>(from.voxels(false), "depth", 0.0f, [&](std::size_t i) {
+            return owners[i] < 0 ? 0.0f : float(result.ballDepths[std::size_t(owners[i])]);
+        }));
+}
+
 void makeMeasures(MadeRun& run)
 {
     for (const MeasureRow& row : measureTable())
@@ -207,6 +227,8 @@ const std::vector<ProductRow>& productTable()
              run.result.contacts =
                  contactAreas(run.atoms.balls, probeOf(run.areasOf), run.progress);
          }},
+        {"`fields` depth", InBricks, [](auto&, auto& o) { return hasField(o.fields, "depth"); },
+         nullptr, makeDepths},
         {"`measures`", always, [](auto&, auto& o) { return !o.measures.empty(); }, nullptr,
          makeMeasures},
         {"`halfFloats`", always, [](auto&, auto& o) { return o.halfFloats; }, nullptr,

@@ -323,12 +323,12 @@ Setting fieldSetting()
 
 Setting measureSetting()
 {
-    std::string text = "numbers of the whole surface for the report, by commas:";
+    std::string text = "numbers of the whole surface for the report, by commas";
     Values words;
     for (const MeasureRow& row : measureTable()) {
         words.push_back(row.name);
-        text += std::string("\n") + row.name +
-                (*row.unit ? std::string(" [") + row.unit + "]" : "") + ": " + row.help;
+        text += std::string(";\n") + row.name + ": " + row.help;
+        if (*row.unit) text += std::string(" [") + row.unit + "]";
     }
     Setting measures{"measures", SettingType::List, "LIST", text, "none", words};
     measures.set = [words](Settings& s, const Values& values) {

@@ -59,8 +59,7 @@ TEST(Tables, OfAtomsAndResiduesAddUpToTheArea)
 {
     const BallSet atoms = named("1crn.pdb");
     const MolecularSurface result = makeSurface(atoms, exact());
-    const Table byAtom = atomTable(atoms, 1.4, result),
-                byResidue = residueTable(atoms, 1.4, result);
+    const Table byAtom = atomTable(atoms, result), byResidue = residueTable(atoms, 1.4, result);
     EXPECT_EQ(column<std::string>(byAtom, "atom").front(), "N");
     EXPECT_EQ(column<double>(byAtom, "area").size(), 327u);
     EXPECT_EQ(column<std::string>(byResidue, "residue").front(), "THR");
@@ -81,8 +80,10 @@ TEST(Tables, OfResiduesHaveADepthOfCarbonsAlone)
     const std::int32_t first = atoms.names->residueOf[0];
     for (std::size_t i = 0; atoms.names->residueOf[i] == first; ++i)
         if (atoms.names->atoms[i].name == "CA") atoms.names->atoms[i].element = 20;
+    SurfaceOptions options = exact();
+    options.fields = {"depth"};
     const std::vector<double> depths =
-        column<double>(residueTable(atoms, 1.4, makeSurface(atoms, exact())), "ca_depth_A");
+        column<double>(residueTable(atoms, 1.4, makeSurface(atoms, options)), "ca_depth_A");
     EXPECT_TRUE(std::isnan(depths[0]));
     EXPECT_GT(depths[1], 0.0);
 }
@@ -133,7 +134,7 @@ TEST(Tables, SayWhatTheyLack)
               "table: expected a surface with `ballAreas` of 327 atoms, got 0");
     atoms.names.reset();
     const std::string noNames = "table: expected `names` of the atoms, got none";
-    EXPECT_EQ(usageOf([&] { atomTable(atoms, 1.4, result); }), noNames);
+    EXPECT_EQ(usageOf([&] { atomTable(atoms, result); }), noNames);
     EXPECT_EQ(usageOf([&] { residueTable(atoms, 1.4, result); }), noNames);
     EXPECT_EQ(usageOf([&] { contactTable(atoms, ContactLevel::Chain, result); }), noNames);
     EXPECT_EQ(usageOf([&] { interfaceTable(atoms, result.report); }), noNames);
