@@ -57,16 +57,20 @@ def test_keywords_are_names_of_python():
     assert not set(_options.KEYWORDS) & set(_options.MORE)
 
 
-def hinted(name):
-    """The keywords of a function in the type hints, with their defaults."""
+def hinted(name, of=None):
+    """The keywords of a function, or of a method of a class, in the type hints, with their defaults."""
     tree = ast.parse((pathlib.Path(ms.__file__).parent / "__init__.pyi").read_text())
-    function = next(node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == name)
+    if of:
+        tree = next(node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == of)
+    function = next(node for node in tree.body if isinstance(node, ast.FunctionDef) and node.name == name)
     return {a.arg: ast.unparse(d) for a, d in zip(function.args.kwonlyargs, function.args.kw_defaults)}
 
 
 def test_type_hints_have_the_same_keywords():
     everything = set(_options.KEYWORDS)
     of_surfaces = {name for name, row in _options.KEYWORDS.items() if not row["of_atoms"]}
+    assert set(hinted("surface", "Molecule")) == {
+        name for name, row in _options.KEYWORDS.items() if not row["chooses_balls"]} | set(_options.MORE)
     assert set(hinted("surface")) == of_surfaces | set(_options.MORE)
     assert set(hinted("read")) == everything | {"groups", "threads", "progress"}
     assert hinted("read")["voxel"] == "0.5" and hinted("read")["kind"] == "'variational'"

@@ -111,7 +111,7 @@ def brute_distance(points, x, r):
 
 def test_a_pore_is_a_table(crambin, ses):
     from conftest import DATA
-    surface = ms.read(DATA / "1grm.pdb.gz", pore="0,-12.5,3 -> 0,12.5,3").surface(kind="ses", voxel=1)
+    surface = ms.read(DATA / "1grm.pdb.gz").surface(kind="ses", voxel=1, pore="0,-12.5,3 -> 0,12.5,3")
     assert min(surface.pore["radius_A"]) == surface.report["pore"]["radius"]
     assert set(pickle.loads(pickle.dumps(surface)).pore) == set(surface.table("pore"))
     with pytest.raises(ValueError, match="pore"):

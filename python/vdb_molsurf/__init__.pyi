@@ -160,7 +160,9 @@ class Molecule:
     @property
     def warnings(self) -> list[str]: ...
     def superpose(self, onto: Molecule, names: Sequence[str] = ...) -> float: ...
+    def select(self, selection: str) -> Selection: ...
     def surface(self, *,
+        charges: bool = False,
         kind: Literal["variational", "ses", "sas", "vdw", "gaussian", "smooth-sas"] = "variational",
         voxel: float = 0.5,
         probe: float = 1.4,
@@ -170,16 +172,25 @@ class Molecule:
         fields: str | Sequence[object] = ...,
         vdb_half: bool = False,
         curvature_totals: bool = False,
+        measures: str | Sequence[object] = ...,
         remesh: float = ...,
         density: float = ...,
         adapt: float = ...,
         epsilon: float = 0.5,
         match: Literal["none", "ses"] = "none",
         match_volume: bool = False,
+        group_by: str = ...,
         split: Literal["group"] = ...,
         surface_of: str | float | Sequence[str | float] = ...,
         interfaces: bool = False,
         color: str = ...,
+        range: str | Sequence[object] = ...,
+        palette: Literal["viridis", "cividis", "batlow", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
+        value_of: Literal["atom", "residue"] = "atom",
+        flat_values: bool = False,
+        outward: float = ...,
+        pocket_at: str = ...,
+        pore: str = ...,
         pockets: bool = False,
         probe_in: float = 1.4,
         probe_out: float = 4.0,
@@ -199,6 +210,13 @@ class Molecule:
         progress: Callable[[str, float], object] | bool | None = None,
     ) -> Surface: ...
 
+class Selection:
+    molecule: Molecule
+    indices: NDArray[np.int32]
+    count: int
+    mask: NDArray[np.bool_]
+    positions: NDArray[np.float64]
+    def __len__(self) -> int: ...
 def surface(positions: ArrayLike, radii: ArrayLike, *,
     kind: Literal["variational", "ses", "sas", "vdw", "gaussian", "smooth-sas"] = "variational",
     voxel: float = 0.5,
@@ -209,6 +227,7 @@ def surface(positions: ArrayLike, radii: ArrayLike, *,
     fields: str | Sequence[object] = ...,
     vdb_half: bool = False,
     curvature_totals: bool = False,
+    measures: str | Sequence[object] = ...,
     remesh: float = ...,
     density: float = ...,
     adapt: float = ...,
@@ -263,6 +282,7 @@ def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
     fields: str | Sequence[object] = ...,
     vdb_half: bool = False,
     curvature_totals: bool = False,
+    measures: str | Sequence[object] = ...,
     remesh: float = ...,
     density: float = ...,
     adapt: float = ...,
