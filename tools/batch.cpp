@@ -12,6 +12,7 @@
 #include "molsurf/error.h"
 #include "molsurf/io/made_folders.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/io/read_report.h"
 #include "molsurf/structure/structure_list.h"
 
 #include <algorithm>
@@ -112,6 +113,17 @@ BatchEntry doneEntry(BatchEntry entry, const Report& report)
     return entry;
 }
 
+// Whether the report among its files says that they are of this call and input, though the journal
+// has lost its line.
+bool areOwn(const Call& call, const Task& task, const std::string& sha256)
+{
+    for (const Output& output : task.outputs) {
+        const auto known = output.holds(Numbers) ? readReport(output.path) : std::nullopt;
+        if (known) return known->input == sha256 && known->options == call.identity;
+    }
+    return false;
+}
+
 // Does one task, unless this run or another has done it with the same content of its input. Files
 // that a run has begun may be replaced, others only with --force. An error of the structure becomes
 // the status of its entry, so that the others go on.
@@ -137,7 +149,8 @@ BatchEntry perform(const Call& call, const Task& task, BatchJournal& journal, bo
     one.outputs = task.outputs;
     one.warnings.clear();
     one.quiet = !call.verbose;
-    one.force = call.force || journal.hasBegun(task.name) || existing(task.outputs) == 0;
+    one.force = call.force || journal.hasBegun(task.name) || existing(task.outputs) == 0 ||
+                areOwn(call, task, entry.sha256);
     try {
         if (one.force) journal.append(entry);
         entry = doneEntry(entry, buildSurface(one, Clock::now()));

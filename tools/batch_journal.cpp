@@ -83,7 +83,7 @@ BatchJournal::BatchJournal(const std::string& folder, const BatchSummary& own, b
 {
     if (!file_) fail("write", path_);
     const Lock lock(file_);
-    const std::string text = readFrom(file_, 0, path_);
+    const std::string text = readFrom(file_, 0, path_), header = journalHeader(own);
     const std::size_t end = text.find('\n');
     if (end != std::string::npos) {
         const BatchSummary old = readJournalHeader(text.substr(0, end), path_);
@@ -96,11 +96,10 @@ BatchJournal::BatchJournal(const std::string& folder, const BatchSummary& own, b
             throw Error(ErrorKind::Output, folder + " holds surfaces with other options (" +
                                                old.options + "; version " + old.version +
                                                ") [hint: another folder, or --force]");
-    } else if (!text.empty() && !anew) {
+    } else if (header.compare(0, text.size(), text) != 0 && !anew) { // not its own, cut short
         readJournalHeader(text, path_);
     }
     if (ftruncate(file_.get(), 0) != 0) fail("write", path_);
-    const std::string header = journalHeader(own);
     writeAll(file_, header, path_);
     read_ = header.size();
 }
@@ -143,6 +142,9 @@ void BatchJournal::append(const BatchEntry& entry)
         writeAll(file_, (cut ? "\n" : "") + journalLine(entry), path_);
     }
     const bool ended = entry.status != "begun";
+    // On the disk before the files that it allows the next run to replace.
+    if (!ended && fsync(file_.get()) != 0 && errno != EINVAL && errno != ENOSYS)
+        fail("write", path_);
     if (ended && Clock::now() - written_ > 20.0 * tableSeconds_) writeTables();
 }
 

@@ -6,11 +6,10 @@
 #include "molsurf/core/may_pass.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
-#include "molsurf/io/temporary_file.h"
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,8 +23,6 @@
 #include <sstream>
 #include <utility>
 #include <vector>
-
-extern char** environ; // NOLINT(readability-redundant-declaration): POSIX wants it declared here
 
 namespace molsurf::tool
 {
@@ -72,16 +69,32 @@ const Coding& codingOf(const std::string& path)
     return found == all.end() ? all.front() : *found;
 }
 
-/// Whether a program is where the shell would look for it.
-bool isInstalled(const char* program)
+/// The file of a program, where the shell would look for it; empty: there is none.
+std::string fileOf(const char* program)
 {
     const char* const path = std::getenv("PATH");
     std::istringstream folders(path ? path : "/usr/bin:/bin");
     for (std::string folder; std::getline(folders, folder, ':');) {
         const std::string file = (folder.empty() ? "." : folder) + "/" + program;
-        if (access(file.c_str(), X_OK) == 0 && !std::filesystem::is_directory(file)) return true;
+        if (access(file.c_str(), X_OK) == 0 && !std::filesystem::is_directory(file)) return file;
     }
-    return false;
+    return "";
+}
+
+/// Becomes a program that is killed with its parent. Behind fork() only calls that a handler of
+/// signals may make are allowed.
+/// @param[in] ends   of the standard streams
+/// @param[in] extra  a file that it gets besides
+/// @param[in] told   gets the errno if that fails
+[[noreturn]] void become(char* const* call, const char* file, pid_t parent,
+                         const std::array<int, 3>& ends, int extra, int told)
+{
+    bool good = prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && fcntl(extra, F_SETFD, 0) == 0;
+    for (int n = 0; n < 3; ++n) good = good && dup2(ends[std::size_t(n)], n) >= 0;
+    if (good && getppid() == parent) execv(file, call);
+    const int reason = errno;
+    const ssize_t ignored = write(told, &reason, sizeof reason);
+    _exit(ignored < 0 ? 126 : 127);
 }
 
 /// A number of pixels made even.
@@ -113,7 +126,7 @@ void checkFilm(const std::string& path)
 {
     if (isStream(path))
         throw Error(ErrorKind::Output, path + ": expected a file for a film, got a pipe");
-    if (!isInstalled("ffmpeg"))
+    if (fileOf("ffmpeg").empty())
         throw Error(ErrorKind::Output,
                     "cannot write " + path +
                         ": expected the program ffmpeg, got none [hint: install "
@@ -134,15 +147,8 @@ Film::~Film()
     wait();
 }
 
-void Film::begin()
+std::vector<std::string> Film::call(int target) const
 {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) file_.fail("cannot write");
-    const FileDescriptor input(ends[0]);
-    pipe_ = FileDescriptor(ends[1]);
-    errors_ = FileDescriptor(memfd_create("ffmpeg", MFD_CLOEXEC));
-    if (!errors_) file_.fail("cannot write");
-
     const Coding& coding = codingOf(file_.path());
     std::vector<std::string> words = {"ffmpeg",
                                       "-loglevel",
@@ -164,20 +170,36 @@ void Film::begin()
     for (const char* const word : {"-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact",
                                    "-map_metadata", "-1", "-f", coding.muxer})
         words.push_back(word);
-    words.push_back("file:" + temporaryName(file_.path()));
+    words.push_back("file:/proc/self/fd/" + std::to_string(target));
+    return words;
+}
+
+void Film::begin()
+{
+    std::array<int, 2> ends{}, answer{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) file_.fail("cannot write");
+    const FileDescriptor input(ends[0]);
+    pipe_ = FileDescriptor(ends[1]);
+    errors_ = FileDescriptor(memfd_create("ffmpeg", MFD_CLOEXEC));
+    const FileDescriptor nowhere(open("/dev/null", O_WRONLY | O_CLOEXEC)), target = file_.again();
+    if (!errors_ || !nowhere || pipe2(answer.data(), O_CLOEXEC) != 0) file_.fail("cannot write");
+    const FileDescriptor told(answer[0]);
+    FileDescriptor telling(answer[1]);
+
+    std::vector<std::string> words = call(target.get());
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, input.get(), STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, errors_.get(), STDERR_FILENO);
-    const int problem =
-        posix_spawnp(&program_, "ffmpeg", &files, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&files);
-    if (problem == 0) return;
+    const std::string file = fileOf("ffmpeg");
+    const pid_t parent = getpid();
+    program_ = fork();
+    if (program_ == 0)
+        become(arguments.data(), file.c_str(), parent, {input.get(), nowhere.get(), errors_.get()},
+               target.get(), telling.get());
+    int problem = program_ < 0 ? errno : 0;
+    telling = FileDescriptor();
+    if (problem == 0 && read(told.get(), &problem, sizeof problem) <= 0) return;
+    if (program_ > 0) wait();
     program_ = 0;
     errno = problem;
     file_.fail("cannot run ffmpeg for");
@@ -215,6 +237,11 @@ std::unique_ptr<OutputFile> Film::finish()
     // It may have failed to write and ended well: then it has said something.
     if (lseek(errors_.get(), 0, SEEK_END) > 0) fail();
     file_.finish();
+    if (!file_.isWhole())
+        throw Error(ErrorKind::Output, "cannot write " + file_.path() +
+                                           ": ffmpeg: it has written nothing, or another file lies "
+                                           "in its place" +
+                                           insteadHint);
     return std::move(own_);
 }
 

@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace molsurf::tool
 {
@@ -22,8 +23,8 @@ constexpr double filmRate = 25.0; ///< pictures a second, unless the call has ot
 /// @throws Error(ErrorKind::Output) if there is no ffmpeg, or the film would go to a pipe
 void checkFilm(const std::string& path);
 
-/// A film that is being made: ffmpeg gets the pictures through a pipe and writes under the
-/// temporary name of the file.
+/// A film that is being made: ffmpeg gets the pictures through a pipe and writes the temporary
+/// file, which it gets open and not by its name. It is killed when this program ends.
 class Film
 {
 public:
@@ -51,6 +52,8 @@ public:
 private:
     /// Starts ffmpeg: raw pictures through a pipe to its input, its messages to a file in memory.
     void begin();
+    /// The call of ffmpeg that writes a descriptor.
+    std::vector<std::string> call(int target) const;
     [[noreturn]] void fail();
     /// @return the status that ffmpeg ended with, as of waitpid()
     int wait();

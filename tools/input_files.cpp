@@ -46,7 +46,11 @@ void failIfNoFile(const std::string& path)
                                           path + " -O DIR reads all structures in it]");
     if (status.type() != std::filesystem::file_type::not_found) return;
     std::string hint;
-    if (path.find("://") != std::string::npos)
+    const std::size_t scheme = path.find("://");
+    if (scheme != std::string::npos && path.rfind("http", 0) != 0 && path.rfind("ftp", 0) != 0)
+        hint = " [hint: it is an address; aws s3 cp, gcloud storage cp or the like loads the file "
+               "first]";
+    else if (scheme != std::string::npos)
         hint = " [hint: it is an address; curl -LO " + path + " loads the file first]";
     else if (isEntry(path))
         hint = " [hint: it is the name of an entry of the Protein Data Bank; curl -LO "

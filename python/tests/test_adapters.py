@@ -11,6 +11,66 @@ import vdb_molsurf as ms
 from conftest import DATA, ROOT
 
 
+def lines_of_crambin(change):
+    """The lines of the atoms of crambin, with a function of (number of the residue, name of the atom, line)."""
+    lines = [line for line in (DATA / "1crn.pdb").read_text().splitlines() if line.startswith("ATOM")]
+    return [change(int(line[22:26]), line[12:16].strip(), line) for line in lines]
+
+
+@pytest.fixture
+def pieces(tmp_path):
+    """A file whose CA and CB stand at its end, as hydrogens of Open Babel do: 46 residues in 92 pieces."""
+    marked = lines_of_crambin(lambda _, name, line: (name in ("CA", "CB"), line))
+    path = tmp_path / "pieces.pdb"
+    path.write_text("\n".join(line for late in (False, True) for end, line in marked if end == late) + "\nEND\n")
+    return path
+
+
+@pytest.fixture
+def segments(tmp_path):
+    """A file of HADDOCK's: blank chains, two segments whose residues have the numbers 1 to 23."""
+    def moved(number, _, line):
+        return f"{line[:21]} {(number - 1) % 23 + 1:4d}{line[26:72]:46}{'SA' if number <= 23 else 'SB':4}{line[76:]}"
+    path = tmp_path / "segments.pdb"
+    path.write_text("\n".join(lines_of_crambin(moved)) + "\nEND\n")
+    return path
+
+
+def areas_of_residues(path):
+    m = ms.read(path)
+    return np.bincount(m.residue_index, weights=ms.areas(m.positions, m.radii))
+
+
+def test_mdanalysis_has_the_segments_of_the_file(segments):
+    mda = pytest.importorskip("MDAnalysis")
+    run = ms.mdanalysis.SurfaceAnalysis(mda.Universe(str(segments)).atoms).run()
+    expected = areas_of_residues(segments)
+    assert len(expected) == 46
+    assert np.allclose(run.results.residue_area[0], expected, atol=0.01)
+    largest = ms._adapters.largest_areas(mda.Universe(str(segments)).residues.resnames)
+    assert np.allclose(run.results.relative[0], expected / largest, atol=1e-4)
+
+
+def test_mdtraj_has_the_residues_of_the_file_or_their_pieces(pieces, segments):
+    mdtraj = pytest.importorskip("mdtraj")
+    made = 100 * ms.mdtraj.shrake_rupley(mdtraj.load(str(segments)), mode="residue")[0]
+    assert np.allclose(made, areas_of_residues(segments), atol=0.01)
+    traj = mdtraj.load(str(pieces))
+    made = 100 * ms.mdtraj.shrake_rupley(traj, mode="residue")[0]
+    assert len(made) == 92
+    whole = np.bincount([residue.resSeq - 1 for residue in traj.topology.residues], weights=made)
+    assert np.allclose(whole, areas_of_residues(pieces), atol=0.01)
+
+
+def test_biopython_has_the_residues_of_the_file(pieces):
+    pdb = pytest.importorskip("Bio.PDB")
+    structure = pdb.PDBParser(QUIET=True).get_structure("pieces", str(pieces))
+    ms.biopython.compute(structure, level="R")
+    made = [residue.sasa for residue in structure.get_residues()]
+    assert np.allclose(made, areas_of_residues(pieces), atol=0.01)
+    assert len(ms.biopython.residue_depth(structure, voxel=1)) == 46
+
+
 def test_no_package_is_imported_unless_it_is_used():
     code = ("import sys, vdb_molsurf; bad = {'MDAnalysis', 'mdtraj', 'Bio', 'tqdm'} & set(sys.modules); "
             "sys.exit(str(bad) if bad else 0)")

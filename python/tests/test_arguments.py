@@ -138,6 +138,7 @@ KEYWORDS = [
     ({"threads": -1}, ValueError, "threads: expected a whole number from 0 to 4096"),
     ({"threads": 1.5}, ValueError, "threads: expected a whole number from 0 to 4096"),
     ({"progress": 3}, TypeError, "progress: expected a callable, True or None, got int"),
+    ({"areas_of": 3}, TypeError, "areas_of: expected str, got int"),
     ({"areas_of": "see"}, ValueError, "areas_of: expected variational or ses or sas or vdw or gaussian"),
     ({"grid": False, "kind": "gaussian"}, ms.OptionError, "`grid`: there is no closed form"),
     ({"interfaces": True}, ms.InputError, "there are no groups"),

@@ -267,6 +267,7 @@ def test_options_change_the_surface(crambin):
     assert crambin.surface(voxel=1, lambda_=1.0).volume > 1.1 * crambin.surface(voxel=1).volume
     colored = crambin.surface(voxel=1, color="element")
     assert colored.colors.shape == (len(colored.vertices), 3) and len(np.unique(colored.colors, axis=0)) > 2
+    assert crambin.surface(voxel=1, kind="ses", areas_of=None).area == crambin.surface(voxel=1, kind="ses").area
     assert crambin.surface(voxel=1, kind="ses", areas_of="sas").atom_areas.sum() == pytest.approx(
         ms.areas(crambin.positions, crambin.radii).sum(), rel=1e-9)
     with pytest.raises(AttributeError):

@@ -99,7 +99,10 @@ def _split(options):
             extra.append("atom_areas")
         if name == "grid" and not on:
             extra.append("no_grid")
-    areas_of = more.pop("areas_of", "")
+    areas_of = more.pop("areas_of", None)
+    areas_of = "" if areas_of is None else areas_of
+    if not isinstance(areas_of, str):
+        raise TypeError(f"areas_of: expected str, got {type(areas_of).__name__}")
     kinds = _options.KEYWORDS["kind"]["words"]
     if areas_of and areas_of not in kinds:
         raise ValueError(f"areas_of: expected {' or '.join(kinds)}")

@@ -55,6 +55,15 @@ def inside(begin, end, centre, radius):
 
 
 class Apbs(ToolTest):
+    def test_names_write_no_lines(self):
+        """Of a structure whose name holds ends of lines and comments."""
+        run = self.folder_of([(0.0, 0.0, 0.0, 1.0, 2.0)], "--voxel", 1, name="x\nquit\ny #1 %.pqr")
+        text = (run / "apbs.in").read_text()
+        self.assertEqual(text.splitlines().count("quit"), 1)
+        self.assertIn("mol pqr run/x_quit_y__1__.charges.pqr\n", text)
+        for folder in ("a#b/", "a%b/", "a\nb/"):
+            self.check(2, "x\nquit\ny #1 %.pqr", "--for", "apbs", "-o", folder, says="APBS reads no names with spaces, quotes, # or %")
+
     def folder_of(self, atoms, *words, name="ion.pqr"):
         (self.folder / name).write_text(pqr(atoms))
         self.check(0, name, "--for", "apbs", "-o", "run/", "--force", *words)

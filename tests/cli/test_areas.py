@@ -267,6 +267,8 @@ class Areas(ToolTest):
         self.write("in.xyzr", "0 0 0 1.5\n")
         for name in "a.pdb", "a.cif":
             self.check(1, "in.xyzr", *SAS, "-o", name, says="the atoms of the input have no names")
+        self.write("in.pdb", atom(1, 0.0, residue="   "))
+        self.check(1, "in.pdb", *SAS, "-o", "a.cif", says="a.cif: the residues of the input have no names")
         self.check(0, "in.xyzr", *SAS, "-o", "a.contacts.csv", says="[hint: --contacts atom]")
 
     def test_records_and_elements_stay(self):

@@ -153,6 +153,23 @@ class Batch(ToolTest):
         self.assertEqual((self.folder / "out" / "t0.json").read_text(), "mine")
         self.assertEqual(self.table()[0]["status"], "failed")
 
+    def test_a_journal_that_was_cut_loses_no_row(self):
+        """Wherever a crash of the machine cut it: the reports say that the files are of these inputs and options."""
+        self.small(2)
+        call = ("batch", "list", "-O", "out", *FAST, "--formats", "ply,json")
+        (self.folder / "list").write_text("t0.xyzr\nt1.xyzr\n")
+        self.check(0, *call)
+        journal = self.folder / "out" / "summary.jsonl"
+        whole = journal.read_bytes()
+        lines = [len(line) for line in whole.splitlines(keepends=True)]
+        for end in (0, lines[0] // 2, lines[0], lines[0] + 5, len(whole) - lines[-1], len(whole) - 1):
+            journal.write_bytes(whole[:end])
+            self.check(0, *call, says="2 structures")
+            self.assertEqual([row["status"] for row in self.table()], ["done", "done"], end)
+        journal.write_bytes(whole[:lines[0]])
+        (self.folder / "t0.xyzr").write_text("0 0 0 1.9\n")
+        self.check(1, *call, says=["t0.ply", "--force"])
+
     def test_a_line_that_was_cut_takes_no_other_along(self):
         """The first line behind that of a run that was killed while it wrote is of a failure, which no other follows."""
         self.small(1)

@@ -496,6 +496,23 @@ class Hostile(ToolTest):
         self.header["border"][1] += many
         self.refuse()
 
+    def test_atoms_without_a_column(self):
+        """Headers that leave out a column which the rest of them asks for, with the right SHA-256."""
+        self.check(0, "bricks", "plan", "a.pdb", "-o", "c.json", "--bricks", 2, "--voxel", 1, "--color", "bfactor", "--group-by", "chain", *STEPS)
+        plan, data = (self.folder / "c.json").read_text(), (self.folder / "c.atoms").read_bytes()
+        _, cells, size = struct.unpack("<QQQ", data[-32:-8])
+        begin = len(data) - 32 - size
+        header = json.loads(data[begin:-32])
+        for column in ("chain", "group", "element", "class", "value"):
+            self.assertIn(column, header["columns"])
+            rest = [name for name in header["columns"] if name != column]
+            text = json.dumps({**header, "columns": rest}, separators=(",", ":"), ensure_ascii=False).encode()
+            changed = data[:begin] + text + data[-32:-16] + struct.pack("<Q", len(text)) + data[-8:]
+            (self.folder / "c.atoms").write_bytes(changed)
+            (self.folder / "c.json").write_text(plan.replace(hashlib.sha256(data[begin - cells:]).hexdigest(),
+                                                             hashlib.sha256(changed[begin - cells:]).hexdigest()))
+            self.check(1, "bricks", "run", "c.json", 1, says=f"c.atoms: is no file of the atoms of a plan: its header lacks the column {column}")
+
     def test_plans(self):
         good = json.loads((self.folder / "plan.json").read_text())
         brick = good["bricks"][0]

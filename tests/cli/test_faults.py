@@ -109,6 +109,14 @@ class Faults(ToolTest):
             self.expect_plain(error)
             self.check(1, name + "x", *FAST, "-o", "b.json", says="a\\x")
 
+    def test_letters_that_turn_others_and_bytes_that_are_no_letters_are_escaped(self):
+        for name, shown in (("a\u202ebdp.pdb", r"a\u202ebdp.pdb"), ("a\u2066b.pdb", r"a\u2066b.pdb"), ("a\udcffb.pdb", r"a\xffb.pdb"),
+                            ("a\udce2\udc80.pdb", r"a\xe2\x80.pdb"), ("a\udced\udca0\udc80.pdb", r"a\xed\xa0\x80.pdb"),
+                            ("\u00e5\u6c34\U0001f600.pdb", "\u00e5\u6c34\U0001f600.pdb")):
+            error = self.check(1, name, "-o", "b.json", says=shown).stderr.decode()
+            self.expect_plain(error)
+            self.assertNotIn("\u202e", error)
+
 
 class Commit(ToolTest):
     """The files of a run are all old or all new, whatever happens to it."""

@@ -7,10 +7,11 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 from needs import can_mount, needs
-from tool import CRAMBIN, DATA, FAST, ToolTest, read_png
+from tool import CRAMBIN, DATA, FAST, TOOL, ToolTest, read_png
 
 KEEPER = f"""#!{sys.executable}
 import json, os, sys
@@ -161,6 +162,33 @@ class Films(ToolTest):
         self.assertEqual((self.folder / "a.mp4").read_text(), "old")
         self.assertEqual(self.names(), ["a.mp4", "m.pdb"])
         self.check(75, *words, says="No space left", env={**self.env, "SAYS": "av: No space left on device", "STATUS": "1"})
+
+    def test_a_film_that_is_none(self):
+        """A program that writes nothing, and one that puts a link in the place of its file: no film, and nothing outside is written."""
+        words = [CRAMBIN, *FAST, "--size", 60, "--turntable", 2, "-o", "a.mp4"]
+        other = self.folder / "other"
+        other.write_text("mine")
+        swap = f'for f in .??*; do rm "$f"; ln -s {other} "$f"; done\nfor w; do :; done\ncat > "${{w#file:}}"\n'
+        for text in ("", swap):
+            self.check(1, *words, says="a.mp4: ffmpeg: it has written nothing, or another file lies in its place",
+                       env=program(self.programs.name, f"#!/bin/sh\n{text}cat > /dev/null\n"))
+            self.assertEqual(other.read_text(), "mine")
+            self.assertFalse((self.folder / "a.mp4").exists())
+
+    def test_ffmpeg_ends_with_its_parent(self):
+        pid = self.folder / "pid"
+        env = program(self.programs.name, f"#!{sys.executable}\nimport os, sys, time\nopen({str(pid)!r}, 'w').write(str(os.getpid()))\n"
+                                          "sys.stdin.buffer.read()\ntime.sleep(60)\n")
+        child = subprocess.Popen([TOOL, str(CRAMBIN), *FAST, "--size", "60", "--turntable", "2", "-o", "a.mp4", "-q"], cwd=self.folder, env=env)
+        end = time.monotonic() + 50
+        while not (pid.exists() and pid.read_text()) and time.monotonic() < end:
+            time.sleep(0.05)
+        child.kill()
+        child.wait()
+        stat = pathlib.Path(f"/proc/{int(pid.read_text())}/stat")
+        while stat.exists() and stat.read_text().rsplit(")", 1)[1].split()[0] != "Z":  # nobody waits for it where there is no init
+            self.assertLess(time.monotonic(), end, "ffmpeg goes on")
+            time.sleep(0.05)
 
     @needs("ffmpeg")
     def test_real_films(self):

@@ -131,6 +131,16 @@ class Frames(ToolTest):
                 for name in "ab")
         self.assertEqual((a["area"], a["volume"]), (b["area"], b["volume"]))
 
+    def test_other_trajectories(self):
+        """Refused with the program that converts them."""
+        for name, begin, kind, program in (("a.trr", b"\0\0\7\xc9", "TRR", "gmx trjconv"), ("a.nc", b"CDF\2", "NetCDF", "cpptraj"),
+                                           ("a.h5", b"\x89HDF\r\n\x1a\n", "HDF5", "mdconvert"), ("a.tng", b"\0" * 8, "TNG", "gmx trjconv")):
+            (self.folder / name).write_bytes(begin + bytes(200))
+            self.check(1, CRAMBIN, *FAST, "--trajectory", name, "-o", "a.ply",
+                       says=[f"{name}: is a trajectory in {kind}, expected DCD or XTC", f"[hint: {program}" if kind != "HDF5" else program])
+        (self.folder / "a.nc").write_bytes(dcd(self.moved(2)))
+        self.check(0, CRAMBIN, *FAST, "--trajectory", "a.nc", "-o", "a.stl", says="2 frames")
+
     def test_xtc(self):
         """Its frames, which GROMACS made of the models, have the surfaces of the models."""
         (self.folder / "by another name").write_bytes(XTC.read_bytes())

@@ -615,6 +615,7 @@ UNTRIED = {
                                     "take .cif.gz": "it takes the Protein Data Bank", "structconvert": "it takes RDKit",
                                     "the file of the coordinates": "it takes the Protein Data Bank",
                                     "unzip": "it takes unzip", "tar -xf": "it takes a tar archive", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
+    "structure/trajectory.cpp": {"gmx trjconv": "it takes GROMACS", "cpptraj writes": "it takes AmberTools", "MDAnalysis or": "it takes MDAnalysis"},
     "structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
     "selection/superpose.cpp": {"`select` takes one chain of each": "cli.superpose follows it"},
     "pipeline/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},

@@ -116,6 +116,12 @@ class NotConverged(ToolTest):
         report = json.loads((self.folder / "a.json").read_text())
         self.assertFalse(report["evolution"]["converged"])
 
+    def test_tolerances_that_the_closed_form_does_not_hold_make_steps(self):
+        for voxel, tolerance, steps in ((1, "0.001", True), (1, "0.009", False), (0.5, "0.002", True), (0.5, "0.003", False)):
+            self.check(0, DATA / "1a8o.cif.gz", "--voxel", voxel, "--tolerance", tolerance, "-o", "a.json", "--force")
+            evolution = json.loads((self.folder / "a.json").read_text())["evolution"]
+            self.assertEqual((evolution["steps"] > 0, evolution["converged"]), (steps, True), (voxel, tolerance))
+
 
 class Ply(ToolTest):
     def test_mesh_is_closed_and_the_report_counts_it(self):

@@ -81,6 +81,7 @@ class WrongCalls(ToolTest):
         self.check(1, "1crn", "-o", "a.ply", says=["1crn: cannot be opened", "download/1crn.cif.gz"])
         self.check(1, "pdb_00001crn", "-o", "a.ply", says="Protein Data Bank")
         self.check(1, "https://example.org/1crn.pdb", "-o", "a.ply", says="curl -LO https://example.org/1crn.pdb")
+        self.assertNotIn(b"curl", self.check(1, "s3://bucket/1crn.cif", "-o", "a.ply", says="an address; aws s3 cp").stderr)
         self.assertNotIn(b"hint", self.check(1, "1crn.pdb", "-o", "a.ply").stderr)
         (self.folder / "some").mkdir()
         self.check(1, "some", "-o", "a.ply", says=["is a folder", "vdb_molsurf batch some -O DIR"])

@@ -5,8 +5,8 @@
 
 #include "input.h"
 
+#include "molsurf/io/describe_structure.h"
 #include "molsurf/progress.h"
-#include "molsurf/selection/describe_structure.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 

@@ -5,9 +5,9 @@
 
 #include "verbs.h"
 
+#include "molsurf/io/describe_structure.h"
 #include "molsurf/io/describe_vdb.h"
 #include "molsurf/io/read_vdb.h"
-#include "molsurf/selection/describe_structure.h"
 
 #include <algorithm>
 #include <iostream>

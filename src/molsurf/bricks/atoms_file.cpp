@@ -20,7 +20,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace molsurf
@@ -144,11 +146,20 @@ Json columns(const BallSet& atoms)
 }
 
 /// Gives one entry to each column that the header names, by which addBall() knows it.
+/// @throws std::range_error if the rest of the header asks for one that it does not name
 void markColumns(const Json& names, BallSet& atoms)
 {
+    std::set<std::string> lacking;
+    if (!atoms.resolutions.empty()) lacking = {"resolution", "decay"};
+    if (atoms.labels) lacking.insert({"chain", "element", "class"});
+    if (atoms.labels && !atoms.labels->groups.empty()) lacking.insert("group");
+    if (atoms.labels && atoms.labels->values) lacking.insert("value");
     forEachColumn(atoms, [&](const char* name, auto& column) {
-        if (std::find(names.begin(), names.end(), name) != names.end()) column.resize(1);
+        if (std::find(names.begin(), names.end(), name) == names.end()) return;
+        column.resize(1);
+        lacking.erase(name);
     });
+    if (!lacking.empty()) throw std::range_error("header lacks the column " + *lacking.begin());
 }
 
 /// Adds the ball of a record.

@@ -11,29 +11,63 @@
 namespace molsurf
 {
 
-/// A text whose control characters, which terminals obey, are written as \x1b and the like; an end
-/// of a line is a space.
+/// The character of UTF-8 at a place.
+struct Utf8 {
+    unsigned code = 0;
+    std::size_t bytes = 0; ///< 0: the byte there begins none
+
+    Utf8(const std::string& text, std::size_t at)
+    {
+        const auto byte = [&](std::size_t i) {
+            return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+        };
+        const unsigned first = byte(at);
+        const std::size_t size = first < 0x80                    ? 1
+                                 : first >= 0xc2 && first < 0xe0 ? 2
+                                 : first >= 0xe0 && first < 0xf0 ? 3
+                                 : first >= 0xf0 && first < 0xf5 ? 4
+                                                                 : 0;
+        code = size < 2 ? first : first & (0x7fu >> size);
+        for (std::size_t i = 1; i < size; ++i) {
+            if ((byte(at + i) & 0xc0) != 0x80) return;
+            code = code << 6 | (byte(at + i) & 0x3f);
+        }
+        const bool longer = (size == 3 && code < 0x800) || (size == 4 && code < 0x10000);
+        const bool none = (code >= 0xd800 && code < 0xe000) || code > 0x10ffff;
+        if (!longer && !none) bytes = size;
+    }
+
+    /// Whether terminals obey it, or turn the way of the letters behind it.
+    bool controls() const
+    {
+        return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x61c || code == 0x200e ||
+               code == 0x200f || (code >= 0x2028 && code <= 0x202e) ||
+               (code >= 0x2066 && code <= 0x2069);
+    }
+};
+
+/// A text whose control characters, which terminals obey, and bytes that are no UTF-8 are written
+/// as \x1b or \u202e and the like; an end of a line is a space.
 inline std::string printable(const std::string& text)
 {
     std::string out;
-    const auto escape = [&](unsigned char c) {
-        char code[8];
-        std::snprintf(code, sizeof code, "\\x%02x", c);
-        out += code;
+    const auto escape = [&](const char* form, unsigned code) {
+        char escaped[16];
+        std::snprintf(escaped, sizeof escaped, form, code);
+        out += escaped;
     };
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto c = static_cast<unsigned char>(text[i]);
-        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-        if (c == '\n') {
+    for (std::size_t i = 0; i < text.size();) {
+        const Utf8 letter(text, i);
+        if (text[i] == '\n')
             out += ' ';
-        } else if (c == 0xc2 && next >= 0x80 && next < 0xa0) { // U+0080 to U+009F
-            escape(next);
-            ++i;
-        } else if (c < 0x20 || c == 0x7f) {
-            escape(c);
-        } else {
-            out += text[i];
-        }
+        else if (letter.bytes == 0 || (letter.controls() && letter.code < 0x100))
+            escape("\\x%02x",
+                   letter.bytes == 0 ? static_cast<unsigned char>(text[i]) : letter.code);
+        else if (letter.controls())
+            escape("\\u%04x", letter.code);
+        else
+            out.append(text, i, letter.bytes);
+        i += letter.bytes == 0 ? 1 : letter.bytes;
     }
     return out;
 }

@@ -143,6 +143,21 @@ void OutputFile::write(const void* bytes, std::size_t size)
     }
 }
 
+FileDescriptor OutputFile::again()
+{
+    const std::string self = "/proc/self/fd/" + std::to_string(buffer_.fd());
+    FileDescriptor out(open(self.c_str(), O_RDWR | O_CLOEXEC));
+    if (!out) fail("cannot open");
+    return out;
+}
+
+bool OutputFile::isWhole()
+{
+    struct stat own, named;
+    return fstat(buffer_.fd(), &own) == 0 && lstat(temporary_.c_str(), &named) == 0 &&
+           own.st_size > 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+}
+
 void OutputFile::finish()
 {
     if (finished_) return;

@@ -4,6 +4,7 @@
 /// @file
 /// Output files that appear whole or not at all.
 
+#include "molsurf/core/file_descriptor.h"
 #include "molsurf/error.h"
 
 #include <ext/stdio_filebuf.h>
@@ -62,6 +63,13 @@ public:
     /// @throws Error(ErrorKind::Output) if they cannot be written
     void write(const void* bytes, std::size_t size);
     void write(std::string_view text) { write(text.data(), text.size()); }
+
+    /// Opens the temporary file once more, for a program that writes it.
+    /// @throws Error(ErrorKind::Output) if that fails
+    FileDescriptor again();
+
+    /// Whether it has content, and nothing else has its temporary name.
+    bool isWhole();
 
     /// Flushes, and waits until the content is on the disk. No-op if it was done before.
     /// @throws Error(ErrorKind::Output) if that fails, for example because the disk is full

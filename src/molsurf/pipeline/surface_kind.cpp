@@ -135,6 +135,12 @@ EvolveOptions flowOptions(const SurfaceSpec& spec)
 {
     EvolveOptions evolution = spec.evolution;
     evolution.splineLevel = spec.splineLevel;
+    // The closed form is at rest to 0.005 Å, and to 0.017 h^2 [1/Å] on voxels up to 1 Å, where the
+    // tolerance stands for 2 Å: judgeRest(). What asks for more gets steps.
+    constexpr double finest = 0.0025, byVoxel = 0.0085; // the latter [1/Å^2]
+    const double voxel = std::min(1.0, spec.voxel);
+    const double least = std::max(finest, byVoxel * voxel * voxel);
+    if (evolution.flow == Flow::Rest && evolution.tolerance < least) evolution.flow = Flow::Newton;
     return evolution;
 }
 

@@ -160,7 +160,7 @@ Table readTable(const std::string& path, std::size_t maxBytes)
                             ": expected one value for each, got a second one for " +
                             inQuotes(std::string(fields[0]) + " " + std::string(fields[1])));
     }
-    if (out.empty()) throw Error(ErrorKind::Input, displayName(path) + ": it has no values");
+    if (out.empty()) failAt(path, "it has no values");
     return out;
 }
 
@@ -364,9 +364,9 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
     BallValues out;
     bool spreads = true; // the range over the values
     if ((by.kind == Kind::BFactor || by.kind == Kind::Occupancy) && structure.hasRadii)
-        throw Error(ErrorKind::Input, displayName(structure.source) + ": it has no " +
-                                          (by.kind == Kind::BFactor ? "B factors" : "occupancies") +
-                                          ", which a PDB or mmCIF file has");
+        failAt(structure.source, std::string("it has no ") +
+                                     (by.kind == Kind::BFactor ? "B factors" : "occupancies") +
+                                     ", which a PDB or mmCIF file has");
     if (by.kind == Kind::BFactor) {
         const float scale = coloring.range ? 0.0f : plddtScale(structure);
         out = filled(bFactors(structure, scale, warnings), [&](const Ball& ball) {
@@ -378,8 +378,7 @@ BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls
                      [&](const Ball& ball) { return atomOf(ball).occupancy; });
     } else if (by.kind == Kind::Charge) {
         if (structure.charges.empty())
-            throw Error(ErrorKind::Input, displayName(structure.source) +
-                                              ": it has no charges, which a PQR file has");
+            failAt(structure.source, "it has no charges, which a PQR file has");
         out = filled({word, "Charge", "e", "BuRd", -1.0, 1.0, {}},
                      [&](const Ball& ball) { return structure.charges[std::size_t(ball.atom)]; });
     } else if (by.kind == Kind::Hydrophobicity) {

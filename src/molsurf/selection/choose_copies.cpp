@@ -33,8 +33,7 @@ constexpr string_view foldWord = "fold:";
 [[noreturn]] void fail(const Structure& structure, const Assembly& assembly,
                        const std::string& what)
 {
-    throw Error(ErrorKind::Input, displayName(structure.source) + ": assembly " +
-                                      inQuotes(assembly.name) + ": " + what);
+    failAt(structure.source, "assembly " + inQuotes(assembly.name) + ": " + what);
 }
 
 std::pair<int, int> parseRange(string_view item, const std::string& text)
@@ -108,19 +107,16 @@ CopyChoice parseCopies(const std::string& text)
 {
     CopyChoice choice;
     if (text.empty()) return choice;
-    string_view rest = text;
-    if (rest.substr(0, foldWord.size()) == foldWord) {
-        if (!parseInteger(rest.substr(foldWord.size()), choice.fold) || choice.fold < 2) {
+    if (text.rfind(foldWord, 0) == 0) {
+        if (!parseInteger(string_view(text).substr(foldWord.size()), choice.fold) ||
+            choice.fold < 2) {
             misuse(text);
         }
         return choice;
     }
-    while (true) {
-        const std::size_t comma = rest.find(',');
-        choice.ranges.push_back(parseRange(trimmed(rest.substr(0, comma)), text));
-        if (comma == string_view::npos) return choice;
-        rest.remove_prefix(comma + 1);
-    }
+    for (const std::string& item : splitWords(text))
+        choice.ranges.push_back(parseRange(trimmed(item), text));
+    return choice;
 }
 
 std::string textOf(const CopyChoice& copies)

@@ -272,15 +272,7 @@ CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& bal
     CoarseBalls out;
     std::vector<CoarseRule> rules(1); // atom
     rules.insert(rules.end(), given.begin(), given.end());
-    std::vector<std::int32_t> ruleOf(structure.atoms.size(), 0);
-    for (std::size_t r = 1; r < rules.size(); ++r) {
-        const std::string& select = rules[r].select;
-        const AtomMatch match = select.empty() ? AtomMatch() : matchAtoms(structure, select);
-        for (std::size_t i = 0; i < ruleOf.size(); ++i) {
-            if (select.empty() || match.atoms[i]) ruleOf[i] = static_cast<std::int32_t>(r);
-        }
-        out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
-    }
+    const std::vector<std::int32_t> ruleOf = lastRules(structure, rules, out.warnings);
     out.members = Grouping(structure, balls, rules, ruleOf).take();
     out.balls.reserve(out.members.size());
     out.beadAtoms.resize(structure.atoms.size());

@@ -24,15 +24,10 @@ namespace molsurf
 namespace
 {
 
-[[noreturn]] void fail(const std::string& path, const std::string& what)
-{
-    throw Error(ErrorKind::Input, path + ": " + what);
-}
-
 std::array<std::uint8_t, 3> colorOf(const std::string& path, const std::string& text)
 {
     const auto color = parseColor(text);
-    if (!color) fail(path, "expected a colour like #d55e00, got '" + text + "'");
+    if (!color) failAt(path, "expected a colour like #d55e00, got '" + text + "'");
     return *color;
 }
 
@@ -48,18 +43,19 @@ CopyChoice copiesOf(const std::string& group, const std::string& text)
 
 std::vector<GroupRule> readJson(const std::string& path, const std::string& text)
 {
-    if (!isModestJson(text)) fail(path, "is no JSON of groups: too deep, or with too many values");
+    if (!isModestJson(text))
+        failAt(path, "is no JSON of groups: too deep, or with too many values");
     const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (json.is_discarded()) fail(path, "is no valid JSON");
+    if (json.is_discarded()) failAt(path, "is no valid JSON");
     if (!json.is_object() || !json.contains("groups") || !json["groups"].is_array()) {
-        fail(path, R"(expected {"groups": [{"name": ..., "select": ...}, ...]})");
+        failAt(path, R"(expected {"groups": [{"name": ..., "select": ...}, ...]})");
     }
     std::vector<GroupRule> rules;
     for (const auto& entry : json["groups"]) {
         const auto word = [&](const char* key) {
             if (!entry.is_object() || !entry.contains(key) || !entry[key].is_string()) {
-                fail(path, "group " + std::to_string(rules.size() + 1) + ": expected a text \"" +
-                               key + "\"");
+                failAt(path, "group " + std::to_string(rules.size() + 1) + ": expected a text \"" +
+                                 key + "\"");
             }
             return entry[key].get<std::string>();
         };
@@ -71,8 +67,8 @@ std::vector<GroupRule> readJson(const std::string& path, const std::string& text
         for (const auto& item : entry.items()) {
             if (item.key() != "name" && item.key() != "select" && item.key() != "color" &&
                 item.key() != "copies") {
-                fail(path, "group " + rule.name + ": unknown key \"" + item.key() +
-                               "\" [hint: name, select, color, copies]");
+                failAt(path, "group " + rule.name + ": unknown key \"" + item.key() +
+                                 "\" [hint: name, select, color, copies]");
             }
         }
         rules.push_back(std::move(rule));
@@ -95,9 +91,9 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
         const Fields columns = splitFields(lines.line());
         if (columns.empty() || columns[0][0] == '#') continue;
         if (columns.size() < 2) {
-            fail(path, "line " + std::to_string(lines.number()) +
-                           ": expected name, selection and perhaps colour, got " +
-                           inQuotes(lines.line()));
+            failAt(path, "line " + std::to_string(lines.number()) +
+                             ": expected name, selection and perhaps colour, got " +
+                             inQuotes(lines.line()));
         }
         GroupRule rule;
         rule.name = columns[0];
@@ -255,11 +251,12 @@ std::vector<GroupRule> readGroups(const std::string& path, std::size_t maxBytes)
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     const bool json = first != std::string::npos && text[first] == '{';
     std::vector<GroupRule> rules = json ? readJson(path, text) : readTable(path, text);
-    if (rules.empty()) fail(path, "has no group");
+    if (rules.empty()) failAt(path, "has no group");
     std::set<std::string> names;
     for (const GroupRule& rule : rules) {
-        if (rule.name.empty()) fail(path, "a group has no name");
-        if (!names.insert(rule.name).second) fail(path, "two groups are named '" + rule.name + "'");
+        if (rule.name.empty()) failAt(path, "a group has no name");
+        if (!names.insert(rule.name).second)
+            failAt(path, "two groups are named '" + rule.name + "'");
     }
     return rules;
 }

@@ -7,23 +7,12 @@
 #include "molsurf/structure/text_fields.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace molsurf
 {
 namespace
 {
-
-/// "A, B, ..." for a hint.
-std::string chainNames(const Structure& structure)
-{
-    constexpr std::size_t longest = 8;
-    std::string names;
-    for (std::size_t i = 0; i < std::min(longest, structure.chains.size()); ++i) {
-        const std::string& name = structure.chains[i];
-        names += (i ? ", " : "") + (name.empty() ? "(blank)" : name);
-    }
-    return names + (structure.chains.size() > longest ? ", ..." : "");
-}
 
 /// Whether a file has atoms alone, as an .xyz or .sdf.
 bool hasNoResidues(const Structure& structure)
@@ -37,27 +26,17 @@ bool hasNoResidues(const Structure& structure)
                             const std::string& hint)
 {
     const bool atoms = hasNoResidues(structure);
+    std::vector<std::string> chains = structure.chains;
+    std::replace(chains.begin(), chains.end(), std::string(), std::string("(blank)"));
     throw Error(ErrorKind::Input,
                 structure.source + ": selection " + inQuotes(expression) + " matches no atom" +
                     (atoms ? ", the file has no chains and residues" : "") +
                     (!hint.empty() ? hint
                      : atoms ? " [hint: all, element C, name C1, index 0 to 9, within 5 of index 0]"
-                             : " [the chains are " + chainNames(structure) +
+                             : " [the chains are " + joined(chains, 8) +
                                    "; syntax: A for a chain, A/53-132 for residues, (HEM) for a "
                                    "residue name, A//CA for an atom, *;polymer, or words: chain A "
                                    "and resid 53 to 132]"));
-}
-
-/// Whether a selection depends on where atoms lie.
-bool asksForPlaces(const std::string& expression, const Structure& structure)
-{
-    try {
-        const Selection selection = parseSelection(expression, structure);
-        return std::any_of(selection.alternatives.begin(), selection.alternatives.end(),
-                           [](const auto& one) { return asksForPlaces(*one.tree); });
-    } catch (const Error&) { // matchAtoms() gives it, with what the selection is for
-        return false;
-    }
 }
 
 } // namespace
@@ -65,7 +44,7 @@ bool asksForPlaces(const std::string& expression, const Structure& structure)
 AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
 {
     const auto settled = structure.settled.find(expression);
-    if (settled != structure.settled.end()) return {settled->second, {0}, {}};
+    if (settled != structure.settled.end()) return *settled->second;
     const Selection selection = parseSelection(expression, structure);
     const SelectionFacts facts(structure);
     AtomMatch match;
@@ -75,6 +54,7 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
     std::vector<std::string> notes = selection.notes;
     for (const Selection::Alternative& one : selection.alternatives) {
         const AtomMask atoms = atomsOf(*one.tree, facts);
+        match.byPlace = match.byPlace || asksForPlaces(*one.tree);
         const bool some = std::find(atoms.begin(), atoms.end(), 1) != atoms.end();
         matched = matched || some;
         for (std::size_t i = 0; i < atoms.size(); ++i) match.atoms[i] |= atoms[i];
@@ -102,15 +82,31 @@ void resolveSelections(const SelectOptions& options, const Model& model, Structu
     for (const ResolutionRule& rule : options.resolutions) expressions.push_back(rule.select);
     for (const CoarseRule& rule : options.coarse) expressions.push_back(rule.select);
     for (const std::string& expression : expressions) {
-        if (expression.empty() || !asksForPlaces(expression, structure)) continue;
-        std::vector<char> atoms = matchAtoms(structure, expression).atoms;
-        const auto first = atoms.begin() + std::ptrdiff_t(model.begin);
-        for (const Model& other : structure.models)
-            if (other.begin != model.begin && other.end - other.begin == model.end - model.begin)
-                std::copy(first, first + std::ptrdiff_t(model.end - model.begin),
-                          atoms.begin() + std::ptrdiff_t(other.begin));
-        structure.settled[expression] = std::move(atoms);
+        if (expression.empty()) continue;
+        AtomMatch match;
+        try {
+            match = matchAtoms(structure, expression);
+        } catch (const Error&) { // selectBalls() gives it, with what the selection is for
+            continue;
+        }
+        if (match.byPlace) {
+            const auto first = match.atoms.begin() + std::ptrdiff_t(model.begin);
+            const std::size_t size = model.end - model.begin;
+            for (const Model& other : structure.models)
+                if (other.begin != model.begin && other.end - other.begin == size)
+                    std::copy(first, first + std::ptrdiff_t(size),
+                              match.atoms.begin() + std::ptrdiff_t(other.begin));
+            match.models = {0};
+            match.warnings.clear();
+        }
+        structure.settled[expression] = std::make_shared<const AtomMatch>(std::move(match));
     }
+}
+
+void forgetPlaces(Structure& structure)
+{
+    for (auto one = structure.settled.begin(); one != structure.settled.end();)
+        one = one->second->byPlace ? structure.settled.erase(one) : std::next(one);
 }
 
 } // namespace molsurf

@@ -3,6 +3,7 @@
 
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
+#include "molsurf/selection/selection_phrase.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/text_fields.h"
 
@@ -23,11 +24,6 @@ constexpr string_view blanks = " \t\r\n", brackets = "()", signs = "|&<>=", join
 bool isIn(string_view letters, char c)
 {
     return c != '\0' && letters.find(c) != string_view::npos;
-}
-
-SubTree treeOf(decltype(SelectionTree::node) node)
-{
-    return std::make_shared<const SelectionTree>(SelectionTree{std::move(node)});
 }
 
 /// One tree of several, without a node about one.
@@ -107,9 +103,27 @@ public:
         return string_view(text_).substr(at_, end - at_);
     }
 
-    /// The word that stands here, if it is one.
-    std::optional<SelectionWord> word() const
+    std::string takeToken()
     {
+        std::string found(token());
+        at_ += found.size();
+        return found;
+    }
+
+    /// Reads a number behind blanks.
+    double takeNumber(const std::string& expected, double least)
+    {
+        skipBlanks();
+        double value = 0.0;
+        if (!parseNumber(token(), value) || !std::isfinite(value) || value < least) fail(expected);
+        takeToken();
+        return value;
+    }
+
+    /// The word behind the blanks here, if it is one.
+    std::optional<SelectionWord> word()
+    {
+        skipBlanks();
         return isIn("\"'", peek()) ? std::nullopt : selectionWord(token());
     }
 
@@ -117,9 +131,10 @@ public:
     [[noreturn]] void fail(const std::string& expected, const std::string& hint = "",
                            std::size_t at = std::string::npos) const
     {
-        Letters here = from(*this, at);
+        Letters here = *this;
+        if (at != std::string::npos) here.goTo(at);
         here.skipBlanks();
-        const string_view got = here.atEnd() ? "" : here.token();
+        const string_view got = here.token();
         std::size_t column = 1; // of characters
         for (std::size_t i = 0; i < here.at_ && i < text_.size(); ++i)
             column += (text_[i] & 0xc0) != 0x80;
@@ -132,13 +147,6 @@ public:
     }
 
 private:
-    static Letters from(const Letters& letters, std::size_t at)
-    {
-        Letters here = letters;
-        if (at != std::string::npos) here.at_ = at;
-        return here;
-    }
-
     const std::string& text_;
     std::size_t at_ = 0;
 };
@@ -158,9 +166,7 @@ public:
         in_.skipBlanks();
         if (isRelation()) return comparison();
         if (!property_.lists) in_.fail("one of < <= > >= = != behind " + word_);
-        if (property_.element) return elements();
-        if (property_.text) return names();
-        return ranges();
+        return property_.text ? names() : ranges();
     }
 
 private:
@@ -178,15 +184,9 @@ private:
         if (relation != "<" && relation != "<=" && relation != ">" && relation != ">=" &&
             relation != "=" && relation != "==" && relation != "!=")
             in_.fail("one of < <= > >= = !=");
-        in_.goTo(in_.at() + relation.size());
-        in_.skipBlanks();
-        const string_view token = in_.atEnd() ? string_view() : in_.token();
-        double value = 0.0;
-        if (!parseNumber(token, value) || !std::isfinite(value))
-            in_.fail("a number behind " + relation);
-        in_.goTo(in_.at() + token.size());
-        if (!property_.lists) value = double(float(value));
-        return treeOf(NumberTest{&property_, relation, value});
+        in_.takeToken();
+        constexpr double least = std::numeric_limits<double>::lowest();
+        return compared(property_, relation, in_.takeNumber("a number behind " + relation, least));
     }
 
     /// Whether the list ends here. Words end it, but not those of one letter, nor what + joins.
@@ -202,8 +202,8 @@ private:
     void needValue() const
     {
         if (!listEnds()) return;
-        const std::string token(in_.atEnd() ? "" : in_.token());
-        const bool quotable = !token.empty() && property_.text && (isLetter(token[0]));
+        const std::string token(in_.token());
+        const bool quotable = property_.text && !token.empty() && isLetter(token[0]);
         in_.fail(std::string(property_.what) + " behind " + word_,
                  quotable ? " [hint: a name that is also a word needs quotes, as in " + word_ +
                                 " \"" + token + "\"]"
@@ -275,22 +275,17 @@ private:
     SubTree names()
     {
         NameTest test{&property_, {}};
-        forEachValue([&] { test.names.push_back(name()); });
+        forEachValue([&] { test.names.push_back(property_.element ? symbol() : name()); });
         return treeOf(std::move(test));
     }
 
-    SubTree elements()
+    NameGlob symbol()
     {
-        SelectionPattern pattern;
-        pattern.elements.assign(maxElement + 1, 0);
-        forEachValue([&] {
-            const std::size_t begin = in_.at();
-            const std::string symbol = name().text;
-            const int number = elementNumber(symbol);
-            if (number == 0 && lowered(symbol) != "x") in_.fail(property_.what, "", begin);
-            pattern.elements[std::size_t(number)] = 1;
-        });
-        return treeOf(PatternTest{std::move(pattern)});
+        const std::size_t begin = in_.at();
+        const std::string text = name().text;
+        const std::uint8_t number = elementNumber(text);
+        if (number == 0 && lowered(text) != "x") in_.fail(property_.what, "", begin);
+        return {elementSymbol(number)};
     }
 
     /// A number, of a residue with its insertion code. PyMOL writes -5 as \-5.
@@ -326,7 +321,7 @@ private:
 
     SubTree ranges()
     {
-        RangeTest test{&property_, {}};
+        std::vector<NumberRange> found;
         forEachValue([&] {
             const std::size_t begin = in_.at();
             const SequenceBound first = bound();
@@ -340,9 +335,9 @@ private:
                 !isIn(signs, c))
                 in_.fail(std::string(property_.what) + ", as in 10, 10-20, 10:20 or 10 to 20", "",
                          begin);
-            test.ranges.push_back({first, last});
+            found.push_back({first, last});
         });
-        return treeOf(std::move(test));
+        return inRanges(property_, std::move(found));
     }
 
     Letters& in_;
@@ -366,7 +361,7 @@ public:
         in_.skipBlanks();
         if (!in_.atEnd())
             in_.fail("and, or, within, around or the end",
-                     in_.peek() == ')' ? "" : didYouMean(std::string(in_.token()), joiners()));
+                     didYouMean(std::string(in_.token()), joiners()));
         if (out_.alternatives.size() < 2) out_.alternatives = {{tree, ""}};
         return std::move(out_);
     }
@@ -382,27 +377,21 @@ private:
     }
 
     /// Counts how deep the grammar calls itself.
-    class Depth
+    auto deeper()
     {
-    public:
-        explicit Depth(SelectionParser& parser) : parser_(parser)
-        {
-            constexpr int most = 100;
-            if (++parser_.depth_ > most) parser_.in_.fail("at most 100 operators in each other");
-        }
-        ~Depth() { --parser_.depth_; }
-        Depth(const Depth&) = delete;
-        Depth& operator=(const Depth&) = delete;
-
-    private:
-        SelectionParser& parser_;
-    };
+        struct Depth {
+            int& depth;
+            ~Depth() { --depth; }
+        };
+        constexpr int most = 100;
+        if (++depth_ > most) in_.fail("at most 100 operators in each other");
+        return Depth{depth_};
+    }
 
     /// The operator that stands here; null if it is none.
     const OperatorWord* peekOperator()
     {
-        in_.skipBlanks();
-        const auto word = in_.atEnd() ? std::nullopt : in_.word();
+        const auto word = in_.word();
         return word ? word->isOperator : nullptr;
     }
 
@@ -410,29 +399,22 @@ private:
     {
         const OperatorWord* found = peekOperator();
         if (!found || found->does != does) return nullptr;
-        takeToken();
+        in_.takeToken();
         return found;
-    }
-
-    std::string takeToken()
-    {
-        std::string token(in_.token());
-        in_.goTo(in_.at() + token.size());
-        return token;
     }
 
     bool takeWord(const char* word)
     {
         in_.skipBlanks();
-        const bool found = !in_.atEnd() && lowered(std::string(in_.token())) == word;
-        if (found) takeToken();
+        const bool found = lowered(std::string(in_.token())) == word;
+        if (found) in_.takeToken();
         return found;
     }
 
     /// @param[out] alternatives  what `or` joins, if nothing else is done with it; may be null
     SubTree expression(Alternatives* alternatives = nullptr)
     {
-        const Depth depth(*this);
+        const auto depth = deeper();
         SubTree tree = either(alternatives);
         int steps = 0;
         for (;;) {
@@ -441,7 +423,7 @@ private:
             if (alternatives) alternatives->clear();
             constexpr int most = 100;
             if (++steps > most) in_.fail("at most 100 operators behind each other");
-            takeToken();
+            in_.takeToken();
             tree = postfix(*word, tree);
         }
     }
@@ -452,7 +434,7 @@ private:
         const double reach = distance();
         if (word.does == Does::Around) return treeOf(NearTo{reach, word.itself, tree});
         if (!takeWord("of")) in_.fail("of behind the distance");
-        const Depth depth(*this);
+        const auto depth = deeper();
         return treeOf(AllOf{{tree, nearTo(word, reach, either())}});
     }
 
@@ -484,15 +466,16 @@ private:
 
     SubTree operand()
     {
-        const Depth depth(*this);
-        in_.skipBlanks();
+        const auto depth = deeper();
+        const auto word = in_.word();
         if (in_.peek() == '(') return bracket();
-        const auto word = in_.atEnd() ? std::nullopt : in_.word();
         if (!word || isInvertedPhrase() || isChainAlone(*word)) return phrase();
         if (word->isOperator) return operation(*word->isOperator);
         if (word->isClass) {
-            takeToken();
-            return treeOf(ClassTest{word->isClass});
+            in_.takeToken();
+            return treeOf(AtomTest{[row = word->isClass](const SelectionFacts& f, std::size_t i) {
+                return row->holds(f, f.structure().atoms[i]);
+            }});
         }
         return property(*word->isProperty);
     }
@@ -500,8 +483,7 @@ private:
     /// The words behind MDAnalysis's "prop".
     SubTree value()
     {
-        in_.skipBlanks();
-        const auto word = in_.atEnd() ? std::nullopt : in_.word();
+        const auto word = in_.word();
         if (!word || !word->isProperty || !word->isProperty->number)
             in_.fail("x, y, z, charge or another number behind prop");
         return property(*word->isProperty);
@@ -510,13 +492,13 @@ private:
     SubTree property(const PropertyWord& property)
     {
         const std::size_t begin = in_.at();
-        const std::string word = takeToken();
+        const std::string word = in_.takeToken();
         in_.skipBlanks();
         const bool compared = isIn("<>=!", in_.peek());
         in_.goTo(begin);
         if (word.size() == 1 && !compared && (hasChain(structure_, word) || isAlone(word)))
             return phrase(); // "b" is a chain, too
-        takeToken();
+        in_.takeToken();
         return ValueReader(in_, structure_, property, word).read();
     }
 
@@ -524,13 +506,13 @@ private:
     {
         switch (word.does) {
         case Does::Value:
-            takeToken();
+            in_.takeToken();
             return value();
         case Does::And:
         case Does::Or:
             failAtOperand();
         case Does::Not:
-            takeToken();
+            in_.takeToken();
             return treeOf(NotOf{operand()});
         case Does::SameAs:
             return sameAs(word);
@@ -538,7 +520,7 @@ private:
             break;
         }
         const std::size_t begin = in_.at();
-        takeToken();
+        in_.takeToken();
         const double reach = distance();
         const bool of = takeWord("of");
         if (!of && word.does != Does::Around) in_.fail("of behind the distance");
@@ -549,13 +531,13 @@ private:
     SubTree sameAs(const OperatorWord& word)
     {
         const std::size_t begin = in_.at();
-        takeToken();
+        in_.takeToken();
         std::string key = word.property ? word.property : "";
         const bool named = key.empty();
         if (named) {
             in_.skipBlanks();
             const std::size_t at = in_.at();
-            key = in_.atEnd() ? "" : lowered(takeToken());
+            key = lowered(in_.takeToken());
             const auto found = selectionWord(key);
             if (key != "residue" && !(found && found->isProperty))
                 in_.fail("residue, chain, resname or another property behind same", "", at);
@@ -595,16 +577,7 @@ private:
         return false;
     }
 
-    double distance()
-    {
-        in_.skipBlanks();
-        const string_view token = in_.atEnd() ? string_view() : in_.token();
-        double out = 0.0;
-        if (!parseNumber(token, out) || !std::isfinite(out) || out < 0.0)
-            in_.fail("a distance of at least 0 Å");
-        in_.goTo(in_.at() + token.size());
-        return out;
-    }
+    double distance() { return in_.takeNumber("a distance of at least 0 Å", 0.0); }
 
     SubTree bracket()
     {
@@ -616,7 +589,7 @@ private:
         if (!in_.take(')'))
             in_.fail(in_.atEnd() ? ") for the bracket at " + std::to_string(begin + 1)
                                  : "and, or, within, around or )",
-                     in_.atEnd() ? "" : didYouMean(std::string(in_.token()), joiners()));
+                     didYouMean(std::string(in_.token()), joiners()));
         return tree;
     }
 
@@ -671,10 +644,10 @@ private:
 
     SubTree phraseOf(const std::string& text)
     {
-        SelectionPattern found = readPhrase(text);
+        const SelectionPhrase found = readPhrase(text);
         in_.goTo(in_.at() + text.size());
         out_.models.push_back(found.model);
-        return treeOf(PatternTest{std::move(found)});
+        return found.tree;
     }
 
     /// Whether "!A/10" stands here, all chains but A, and not the word `not`.
@@ -740,8 +713,7 @@ private:
 
     [[noreturn]] void failAtOperand() const
     {
-        in_.fail("a word such as protein, chain or within",
-                 in_.atEnd() ? "" : hintOn(std::string(in_.token())));
+        in_.fail("a word such as protein, chain or within", hintOn(std::string(in_.token())));
     }
 
     Letters in_;

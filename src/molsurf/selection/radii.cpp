@@ -16,6 +16,7 @@
 #include <iterator>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 namespace molsurf
 {
@@ -24,26 +25,23 @@ namespace
 
 using std::string_view;
 
-/// Radii as text: "H 1.20 C 1.70".
-struct Table {
-    string_view text;
-};
-
 // A. Bondi, van der Waals volumes and radii, J. Phys. Chem. 68 (1964) 441, doi 10.1021/j100785a001.
-constexpr Table bondi{"H 1.20 He 1.40 Li 1.82 C 1.70 N 1.55 O 1.52 F 1.47 Ne 1.54 Na 2.27 Mg 1.73 "
-                      "Si 2.10 P 1.80 S 1.80 Cl 1.75 Ar 1.88 K 2.75 Ni 1.63 Cu 1.40 Zn 1.39 "
-                      "Ga 1.87 As 1.85 Se 1.90 Br 1.85 Kr 2.02 Pd 1.63 Ag 1.72 Cd 1.58 In 1.93 "
-                      "Sn 2.17 Te 2.06 I 1.98 Xe 2.16 Pt 1.75 Au 1.66 Hg 1.55 Tl 1.96 Pb 2.02 "
-                      "U 1.86"};
+constexpr string_view bondi{
+    "H 1.20 He 1.40 Li 1.82 C 1.70 N 1.55 O 1.52 F 1.47 Ne 1.54 Na 2.27 Mg 1.73 "
+    "Si 2.10 P 1.80 S 1.80 Cl 1.75 Ar 1.88 K 2.75 Ni 1.63 Cu 1.40 Zn 1.39 "
+    "Ga 1.87 As 1.85 Se 1.90 Br 1.85 Kr 2.02 Pd 1.63 Ag 1.72 Cd 1.58 In 1.93 "
+    "Sn 2.17 Te 2.06 I 1.98 Xe 2.16 Pt 1.75 Au 1.66 Hg 1.55 Tl 1.96 Pb 2.02 "
+    "U 1.86"};
 
 // M. Mantina et al., Consistent van der Waals radii for the whole main group, J. Phys. Chem. A 113
 // (2009) 5806, doi 10.1021/jp8111556, table 12: only the elements that Bondi lacks.
-constexpr Table mantina{"Be 1.53 B 1.92 Al 1.84 Ca 2.31 Ge 2.11 Rb 3.03 Sr 2.49 Sb 2.06 Cs 3.43 "
-                        "Ba 2.68 Bi 2.07 Po 1.97 At 2.02 Rn 2.20 Fr 3.48 Ra 2.83"};
+constexpr string_view mantina{
+    "Be 1.53 B 1.92 Al 1.84 Ca 2.31 Ge 2.11 Rb 3.03 Sr 2.49 Sb 2.06 Cs 3.43 "
+    "Ba 2.68 Bi 2.07 Po 1.97 At 2.02 Rn 2.20 Fr 3.48 Ra 2.83"};
 
 // S. Alvarez, A cartography of the van der Waals territories, Dalton Trans. 42 (2013) 8617,
 // doi 10.1039/c3dt50599e.
-constexpr Table alvarez{
+constexpr string_view alvarez{
     "H 1.20 He 1.43 Li 2.12 Be 1.98 B 1.91 C 1.77 N 1.66 O 1.50 F 1.46 Ne 1.58 Na 2.50 Mg 2.51 "
     "Al 2.25 Si 2.19 P 1.90 S 1.89 Cl 1.82 Ar 1.83 K 2.73 Ca 2.62 Sc 2.58 Ti 2.46 V 2.42 Cr 2.45 "
     "Mn 2.45 Fe 2.44 Co 2.40 Ni 2.40 Cu 2.38 Zn 2.39 Ga 2.32 Ge 2.29 As 1.88 Se 1.82 Br 1.86 "
@@ -202,10 +200,17 @@ RadiiSet unitedSet(const UnitedAtoms& united)
     return set;
 }
 
-/// Sets the radii of a table where there are none yet.
-void fill(ElementRadii& radii, const Table& table)
+const std::vector<std::string>& setNames()
 {
-    const Fields fields = splitFields(table.text);
+    static const std::vector<std::string> names =
+        splitWords("bondi,alvarez,gemmi,protor,naccess,martini,martini2,martini3");
+    return names;
+}
+
+/// Sets the radii of a table where there are none yet.
+void fill(ElementRadii& radii, string_view table)
+{
+    const Fields fields = splitFields(table);
     for (std::size_t i = 0; i + 1 < fields.size(); i += 2) {
         double radius = 0;
         parseNumber(fields[i + 1], radius);
@@ -214,22 +219,23 @@ void fill(ElementRadii& radii, const Table& table)
     }
 }
 
-RadiiSet bondiSet()
+/// A set of radii by element; those that a table lacks come from the next one.
+RadiiSet elementSet(const char* name, std::initializer_list<string_view> tables)
 {
     RadiiSet set;
-    set.name = "bondi";
-    fill(set.elements, bondi);
-    fill(set.elements, mantina);
-    fill(set.elements, alvarez);
+    set.name = name;
+    for (const string_view table : tables) fill(set.elements, table);
     return set;
+}
+
+RadiiSet bondiSet()
+{
+    return elementSet("bondi", {bondi, mantina, alvarez});
 }
 
 RadiiSet alvarezSet()
 {
-    RadiiSet set;
-    set.name = "alvarez";
-    fill(set.elements, alvarez);
-    return set;
+    return elementSet("alvarez", {alvarez});
 }
 
 RadiiSet gemmiSet()
@@ -342,14 +348,10 @@ RadiiSet readRadii(const std::string& name, std::size_t maxBytes)
     if (name == protor.name) return unitedSet(protor);
     if (name == naccess.name) return unitedSet(naccess);
     std::error_code status;
-    if (!std::filesystem::exists(name, status)) {
-        throw Error(ErrorKind::Input,
-                    "radii: expected bondi, alvarez, gemmi, protor, naccess, martini, martini2, "
-                    "martini3 or a file that exists, got " +
-                        inQuotes(name) +
-                        didYouMean(name, {"bondi", "alvarez", "gemmi", "protor", "naccess",
-                                          "martini", "martini2", "martini3"}));
-    }
+    if (!std::filesystem::exists(name, status))
+        throw Error(ErrorKind::Input, "radii: expected " + joined(setNames()) +
+                                          " or a file that exists, got " + inQuotes(name) +
+                                          didYouMean(name, setNames()));
     return readFile(name, maxBytes);
 }
 
@@ -404,9 +406,7 @@ std::string describeRadii()
 
 bool isRadiiSet(const std::string& name)
 {
-    constexpr const char* sets[] = {"bondi",   "alvarez", "gemmi",    "protor",
-                                    "naccess", "martini", "martini2", "martini3"};
-    return std::find(std::begin(sets), std::end(sets), name) != std::end(sets);
+    return std::find(setNames().begin(), setNames().end(), name) != setNames().end();
 }
 
 } // namespace molsurf

@@ -44,11 +44,6 @@ namespace
 
 using Indices = std::vector<std::int32_t>;
 
-[[noreturn]] void failInput(const Structure& structure, const std::string& what)
-{
-    throw Error(ErrorKind::Input, displayName(structure.source) + ": " + what);
-}
-
 /// The model that the option and the selection name.
 const Model& chooseModel(const Structure& structure, const SelectOptions& options,
                          const std::vector<int>& selected)
@@ -69,8 +64,9 @@ const Model& chooseModel(const Structure& structure, const SelectOptions& option
         if (model.number == number) return model;
         numbers.push_back(std::to_string(model.number));
     }
-    failInput(structure, "model " + std::to_string(number) + ": expected " +
-                             (numbers.size() > 1 ? "one of " : "the only one, ") + joined(numbers));
+    failAt(structure.source, "model " + std::to_string(number) + ": expected " +
+                                 (numbers.size() > 1 ? "one of " : "the only one, ") +
+                                 joined(numbers));
 }
 
 /// Narrows a list of atoms step by step, and keeps the count of what each step takes out.
@@ -128,8 +124,8 @@ void chooseAltloc(const Structure& structure, const std::string& altloc, Filter&
         out.warnings.push_back("alternate location " + altloc +
                                ": the selected atoms have no alternate locations");
     } else if (labels.count(altloc) == 0) {
-        failInput(structure, "alternate location " + inQuotes(altloc) + ": expected one of " +
-                                 joined({labels.begin(), labels.end()}));
+        failAt(structure.source, "alternate location " + inQuotes(altloc) + ": expected one of " +
+                                     joined({labels.begin(), labels.end()}));
     }
     std::set<std::pair<std::int32_t, std::string>> labelled; // that the label has
     for (const std::int32_t i : filter.atoms()) {
@@ -326,9 +322,9 @@ void checkExtent(const Structure& structure, const std::vector<Ball>& balls)
         const double extent =
             static_cast<double>(high->center[axis]) - static_cast<double>(low->center[axis]);
         if (extent <= largest) continue; // false for NaN
-        failInput(structure, std::string("the molecule's extent in ") + "xyz"[axis] +
-                                 ": expected at most 1e6 Å, got " + std::to_string(extent) +
-                                 " Å [an atom or an assembly operator is wrong]");
+        failAt(structure.source, std::string("the molecule's extent in ") + "xyz"[axis] +
+                                     ": expected at most 1e6 Å, got " + std::to_string(extent) +
+                                     " Å [an atom or an assembly operator is wrong]");
     }
 }
 
@@ -366,12 +362,7 @@ std::string describeRole(const Structure& structure, const std::string& what, co
     std::set<std::string> names;
     for (const std::int32_t i : atoms)
         if (isOne(i)) names.insert(residueOf(structure, structure.atoms[std::size_t(i)]).name);
-    std::vector<std::string> some(names.begin(), names.end());
-    if (some.size() > most) {
-        some.resize(most);
-        some.push_back("...");
-    }
-    return what + " (" + joined(some) + ")";
+    return what + " (" + joined({names.begin(), names.end()}, most) + ")";
 }
 
 /// The assembly that is asked for, if it can be built; otherwise nullptr.
@@ -445,20 +436,9 @@ void applyFilters(const Structure& structure, const SelectOptions& options, cons
 void applyResolutions(const Structure& structure, const SelectOptions& options, BallSet& out)
 {
     if (options.resolutions.empty()) return;
-    std::vector<std::int32_t> ruleOf(structure.atoms.size(), -1);
-    for (std::size_t r = 0; r < options.resolutions.size(); ++r) {
-        const ResolutionRule& rule = options.resolutions[r];
-        if (rule.select.empty()) {
-            std::fill(ruleOf.begin(), ruleOf.end(), std::int32_t(r));
-        } else {
-            const AtomMatch match = matchAtoms(structure, rule.select);
-            for (std::size_t i = 0; i < ruleOf.size(); ++i) {
-                if (match.atoms[i]) ruleOf[i] = std::int32_t(r);
-            }
-            out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
-        }
-        out.resolutions.push_back({rule, 0});
-    }
+    const std::vector<std::int32_t> ruleOf =
+        lastRules(structure, options.resolutions, out.warnings);
+    for (const ResolutionRule& rule : options.resolutions) out.resolutions.push_back({rule, 0});
     out.decays.resize(out.balls.size());
     out.resolutionOf.resize(out.balls.size());
     for (std::size_t i = 0; i < out.balls.size(); ++i) {
@@ -492,7 +472,7 @@ void addValues(const Structure& structure, const SelectOptions& options, double 
     const std::size_t none = std::size_t(std::count_if(values.valueOf.begin(), values.valueOf.end(),
                                                        [](float v) { return !std::isfinite(v); }));
     if (none == values.valueOf.size() && !values.byPoint())
-        failInput(structure, values.title + ": no atom has one");
+        failAt(structure.source, values.title + ": no atom has one");
     out.labels->values = std::move(values);
 }
 
@@ -638,8 +618,8 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
                     const Progress& progress)
 {
     if (!structure.placed)
-        failInput(structure, "has no coordinates, expected them from a trajectory beside it "
-                             "[hint: `trajectory` FILE.dcd or FILE.xtc, with `frames`]");
+        failAt(structure.source, "has no coordinates, expected them from a trajectory beside it "
+                                 "[hint: `trajectory` FILE.dcd or FILE.xtc, with `frames`]");
     if (structure.hasRadii && options.radii != "bondi") {
         throw Error(ErrorKind::Usage, "radii " + inQuotes(options.radii) +
                                           ": expected none, since " +
@@ -648,7 +628,7 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     const AtomMatch match =
         options.select.empty() ? AtomMatch() : matchAtoms(structure, options.select);
     const Model& model = chooseModel(structure, options, match.models);
-    if (!model.problem.empty()) failInput(structure, model.problem);
+    if (!model.problem.empty()) failAt(structure.source, model.problem);
     BallSet out;
     out.model = model.number;
     out.membrane = membraneNormal(structure, model);
@@ -672,9 +652,9 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
     if (out.balls.empty()) {
         const bool anyWater = std::any_of(out.drops.begin(), out.drops.end(),
                                           [](auto& drop) { return drop.reason == "water"; });
-        failInput(structure, "nothing is left of " + std::to_string(model.end - model.begin) +
-                                 " atoms: dropped " + describeDrops(out.drops) +
-                                 (anyWater ? " [hint: `waters` keeps it]" : ""));
+        failAt(structure.source, "nothing is left of " + std::to_string(model.end - model.begin) +
+                                     " atoms: dropped " + describeDrops(out.drops) +
+                                     (anyWater ? " [hint: `waters` keeps it]" : ""));
     }
     dropDuplicates(structure, filter, out);
     checkExtent(structure, out.balls);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
 #include <limits>
 #include <string_view>
 
@@ -44,7 +45,7 @@ class PhraseReader
 public:
     explicit PhraseReader(const std::string& text) : text_(text) {}
 
-    SelectionPattern read()
+    SelectionPhrase read()
     {
         enum Part { Model, Chains, Residues, Atoms };
         const Part first = peek() == '/'                      ? Model
@@ -58,14 +59,14 @@ public:
         }
         const bool chains = first == Model && !atEnd();
         if (chains && !take('/')) fail("a / behind the model");
-        if (chains || (first == Chains && !atEnd())) out_.chains = names("chains", "/;");
+        if (chains || (first == Chains && !atEnd())) names("chain", "chains", "/;");
         if (first <= Chains && !atEnd() && !take('/')) fail("a / or ; behind the chains");
         if (first <= Residues && !atEnd()) residues();
         if (first <= Residues && !atEnd() && !take('/')) fail("a / or ; behind the residues");
         if (!atEnd()) atoms();
         while (take(';')) property();
         if (at_ < text_.size()) fail("the end or a ;");
-        return std::move(out_);
+        return {treeOf(PhraseOf{{std::move(parts_)}}), model_};
     }
 
 private:
@@ -122,9 +123,12 @@ private:
         if (peek() == '/' || atEnd() || take('*')) return;
         std::size_t end = at_;
         while (end < text_.size() && text_[end] != '/' && text_[end] != ';') ++end;
-        if (!parseInteger(string_view(text_).substr(at_, end - at_), out_.model) || out_.model < 1)
+        if (!parseInteger(string_view(text_).substr(at_, end - at_), model_) || model_ < 1)
             fail("the number of a model");
         at_ = end;
+        add([number = model_](const SelectionFacts& facts, std::size_t i) {
+            return facts.modelOf(i).number == number;
+        });
     }
 
     /// A name, which ends before one of some letters, or a text in quotes.
@@ -152,18 +156,20 @@ private:
         return text_.substr(begin, at_ - begin);
     }
 
-    NamePattern names(const std::string& what, string_view ends)
+    /// Reads names of a property, or * for all.
+    /// @return the names; empty: all
+    std::vector<NameGlob> names(const char* property, const std::string& what, string_view ends)
     {
-        NamePattern out;
+        NameTest test{&propertyOf(property), {}};
         if (peek() == '*' && (at_ + 1 == text_.size() || ends.find(peek(1)) != string_view::npos)) {
             ++at_;
-            return out;
+            return {};
         }
-        out.all = false;
-        out.inverted = take('!');
-        do out.names.push_back(name(what, ends));
+        test.inverted = take('!');
+        do test.names.push_back({name(what, ends), false, true});
         while (take(','));
-        return out;
+        parts_.push_back(treeOf(test));
+        return test.names;
     }
 
     /// A number with its insertion code, or * or nothing, which are `open`.
@@ -190,8 +196,8 @@ private:
     /// Names in brackets, behind which MMDB's "." and "*" may stand.
     void residueNames()
     {
-        if (!out_.residues.all || !take('(')) return;
-        out_.residues = names("residues", ")");
+        if (named_ || !take('(')) return;
+        named_ = !names("resname", "residues", ")").empty();
         if (!take(')')) fail("a ) behind the names of residues");
         take('.');
         take('*');
@@ -202,33 +208,28 @@ private:
         if (peek() == '/') return;
         constexpr int least = std::numeric_limits<int>::min();
         constexpr int most = std::numeric_limits<int>::max();
-        if (peek() != '(') out_.from = bound(least);
+        NumberRange range{{least, '*'}, {most, '*'}};
+        if (peek() != '(') range.from = bound(least);
         residueNames();
-        const bool open = out_.from.number == least;
-        if (!take('-')) {
-            if (!open) out_.to = out_.from;
-            return;
+        const bool open = range.from.number == least;
+        if (take('-')) {
+            range.to = bound(most);
+            residueNames();
+            if (open && range.to.number == most && !named_ && text_[at_ - 1] == '-')
+                fail("a number of a residue beside the -");
+        } else if (!open) {
+            range.to = range.from;
         }
-        out_.to = bound(most);
-        residueNames();
-        if (open && out_.to.number == most && out_.residues.all && text_[at_ - 1] == '-')
-            fail("a number of a residue beside the -");
+        parts_.push_back(inRanges(propertyOf("resid"), {range}));
     }
 
     void atoms()
     {
-        if (peek() != '[' && peek() != ':' && !atEnd()) {
-            out_.atoms = names("atoms", "[:;");
-            const NamePattern& found = out_.atoms;
-            const bool nothing =
-                !found.inverted && found.names.size() == 1 && found.names[0].empty();
-            if (nothing) out_.atoms = NamePattern();
-        }
+        if (peek() != '[' && peek() != ':' && !atEnd()) names("name", "atoms", "[:;");
         if (take('[')) elements();
         if (take(':')) {
-            out_.altlocs = names("alternate locations", ";");
-            for (const std::string& label : out_.altlocs.names)
-                if (label.size() > 1) fail("alternate locations of one letter");
+            for (const NameGlob& label : names("alt", "alternate locations", ";"))
+                if (label.text.size() > 1) fail("alternate locations of one letter");
         }
     }
 
@@ -238,15 +239,14 @@ private:
             if (!take(']')) fail("a ] behind the elements");
             return;
         }
-        const bool inverted = take('!');
-        out_.elements.assign(maxElement + 1, char(inverted));
+        NameTest test{&propertyOf("element"), {}, take('!')};
         do {
             const std::string symbol = name("elements", "]");
-            const int number = elementNumber(symbol);
+            const std::uint8_t number = elementNumber(symbol);
             if (number == 0 && symbol != "X" && symbol != "x") fail("the symbol of an element");
-            if (symbol != "D" && symbol != "d")
-                out_.elements[std::size_t(number)] = char(!inverted);
+            if (symbol != "D" && symbol != "d") test.names.push_back({elementSymbol(number)});
         } while (take(','));
+        parts_.push_back(treeOf(std::move(test)));
         if (!take(']')) fail("a ] behind the elements");
     }
 
@@ -256,12 +256,12 @@ private:
         const string_view word = trimmed(string_view(text_).substr(at_, end - at_));
         const std::size_t relation = word.find_first_of("<=>");
         if (relation != string_view::npos) {
-            const string_view property = trimmed(word.substr(0, relation));
+            const std::string property(trimmed(word.substr(0, relation)));
             double value = 0.0;
             if ((property != "q" && property != "b") ||
                 !parseNumber(trimmed(word.substr(relation + 1)), value))
                 fail("q (occupancy) or b (B factor), one of < = > and a number");
-            out_.inequalities.push_back({property[0], word[relation], value});
+            parts_.push_back(compared(propertyOf(property), {word[relation]}, value));
             at_ = end;
             return;
         }
@@ -278,30 +278,31 @@ private:
             if (comma == string_view::npos) break;
             rest.remove_prefix(comma + 1);
         }
-        out_.kinds &= inverted ? ~kinds : kinds;
+        if (inverted) kinds = ~kinds;
+        add([kinds](const SelectionFacts& facts, std::size_t i) {
+            const Structure& structure = facts.structure();
+            return (kinds & bitOf(residueOf(structure, structure.atoms[i]).kind)) != 0;
+        });
         at_ = end;
+    }
+
+    void add(decltype(AtomTest::holds) holds) { parts_.push_back(treeOf(AtomTest{holds})); }
+
+    static const PropertyWord& propertyOf(const std::string& word)
+    {
+        return *selectionWord(word)->isProperty;
     }
 
     const std::string& text_;
     std::size_t at_ = 0;
-    SelectionPattern out_;
+    std::vector<SubTree> parts_;
+    int model_ = 0;
+    bool named_ = false; ///< whether names of residues were read
 };
 
 } // namespace
 
-bool NamePattern::has(const std::string& name) const
-{
-    return all || (std::find(names.begin(), names.end(), name) != names.end()) != inverted;
-}
-
-int SequenceBound::compare(const Residue& residue) const
-{
-    if (number != residue.number) return number < residue.number ? -1 : 1;
-    if (insertionCode == '*' || insertionCode == residue.insertionCode) return 0;
-    return insertionCode < residue.insertionCode ? -1 : 1;
-}
-
-SelectionPattern readPhrase(const std::string& text)
+SelectionPhrase readPhrase(const std::string& text)
 {
     return PhraseReader(text).read();
 }

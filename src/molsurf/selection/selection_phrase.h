@@ -4,49 +4,17 @@
 /// @file
 /// A phrase of gemmi's in a selection: /model/chains/residues/atoms;properties.
 
-#include "molsurf/structure/structure.h"
+#include "molsurf/selection/selection_tree.h"
 
-#include <cstdint>
-#include <limits>
 #include <string>
-#include <vector>
 
 namespace molsurf
 {
 
-/// Names that are selected, or with a '!' before them all others.
-struct NamePattern {
-    bool all = true, inverted = false;
-    std::vector<std::string> names;
-
-    bool has(const std::string& name) const;
-};
-
-/// A number of a residue with its insertion code.
-struct SequenceBound {
-    int number;
-    char insertionCode; ///< '*': any
-
-    /// < 0, 0 or > 0 if the bound lies before, at or behind a residue.
-    int compare(const Residue& residue) const;
-};
-
 /// A phrase.
-struct SelectionPattern {
-    /// "b<20": a comparison of occupancy ('q') or B factor ('b').
-    struct Inequality {
-        char property;
-        char relation; ///< '<', '=' or '>'
-        double value;
-    };
-
+struct SelectionPhrase {
+    SubTree tree;
     int model = 0; ///< 0: any
-    NamePattern chains, residues, atoms, altlocs;
-    SequenceBound from{std::numeric_limits<int>::min(), '*'};
-    SequenceBound to{std::numeric_limits<int>::max(), '*'};
-    std::vector<char> elements; ///< one an atomic number: 1 if selected; empty: any
-    std::uint32_t kinds = ~0u;  ///< bit k: residues of the ResidueKind k
-    std::vector<Inequality> inequalities;
 };
 
 /// Reads a phrase:
@@ -67,6 +35,6 @@ struct SelectionPattern {
 /// Parts at the beginning may be left out: what begins with a digit, a sign or ( is residues; what
 /// has [ or : before any / is atoms; anything else is chains.
 /// @throws Error(ErrorKind::Usage) that says what was expected where
-SelectionPattern readPhrase(const std::string& text);
+SelectionPhrase readPhrase(const std::string& text);
 
 } // namespace molsurf

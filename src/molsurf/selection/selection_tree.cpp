@@ -16,28 +16,6 @@ namespace
 
 using std::string_view;
 
-bool matches(const SelectionPattern& selection, const Residue& residue, const Structure& structure)
-{
-    return selection.chains.has(structure.chains[std::size_t(residue.chain)]) &&
-           (selection.kinds >> unsigned(residue.kind) & 1u) != 0 &&
-           selection.residues.has(residue.name) && selection.from.compare(residue) <= 0 &&
-           selection.to.compare(residue) >= 0;
-}
-
-bool matches(const SelectionPattern& selection, const Atom& atom)
-{
-    const auto holds = [&](const SelectionPattern::Inequality& bound) {
-        const double value = bound.property == 'q' ? atom.occupancy : atom.bFactor;
-        return bound.relation == '<'   ? value < bound.value
-               : bound.relation == '>' ? value > bound.value
-                                       : value == bound.value;
-    };
-    const bool element = selection.elements.empty() || selection.elements[atom.element];
-    return element && selection.atoms.has(atom.name) &&
-           selection.altlocs.has(std::string(atom.altloc ? 1 : 0, atom.altloc)) &&
-           std::all_of(selection.inequalities.begin(), selection.inequalities.end(), holds);
-}
-
 /// Whether a number stands to another as a relation says.
 bool holds(double a, const std::string& relation, double b)
 {
@@ -61,9 +39,9 @@ public:
         return std::visit([&](const auto& node) { return of(node); }, tree->node);
     }
 
-    AtomMask of(const ClassTest& test) const
+    AtomMask of(const AtomTest& test) const
     {
-        return where([&](std::size_t, const Atom& atom) { return test.word->holds(facts_, atom); });
+        return where([&](std::size_t i, const Atom&) { return test.holds(facts_, i); });
     }
 
     AtomMask of(const NameTest& test) const
@@ -76,62 +54,28 @@ public:
             if (known && name == last) return had;
             known = true;
             last = name;
-            return had = std::any_of(test.names.begin(), test.names.end(),
+            return had = test.inverted !=
+                         std::any_of(test.names.begin(), test.names.end(),
                                      [&](const NameGlob& glob) { return glob.matches(name); });
         });
     }
 
-    AtomMask of(const RangeTest& test) const
-    {
-        return where([&](std::size_t i, const Atom& atom) {
-            Residue place{};
-            place.number = std::int32_t(test.property->number(facts_, i));
-            if (test.property->residue)
-                place.insertionCode = residueOf(structure_, atom).insertionCode;
-            return std::any_of(test.ranges.begin(), test.ranges.end(), [&](const NumberRange& r) {
-                return r.from.compare(place) <= 0 && r.to.compare(place) >= 0;
-            });
-        });
-    }
-
-    AtomMask of(const NumberTest& test) const
-    {
-        return where([&](std::size_t i, const Atom&) {
-            return holds(test.property->number(facts_, i), test.relation, test.value);
-        });
-    }
-
-    AtomMask of(const PatternTest& test) const
-    {
-        std::vector<char> residues;
-        for (const Residue& residue : structure_.residues)
-            residues.push_back(char(matches(test.pattern, residue, structure_)));
-        AtomMask out(structure_.atoms.size());
-        for (const Model& model : structure_.models) {
-            if (test.pattern.model != 0 && test.pattern.model != model.number) continue;
-            for (std::size_t i = model.begin; i < model.end; ++i)
-                out[i] =
-                    char(residues[std::size_t(atom(i).residue)] && matches(test.pattern, atom(i)));
-        }
-        return out;
-    }
-
     AtomMask of(const AllOf& all) const
     {
-        AtomMask out = of(all.parts.front());
-        for (std::size_t p = 1; p < all.parts.size(); ++p) {
-            const AtomMask part = of(all.parts[p]);
-            for (std::size_t i = 0; i < out.size(); ++i) out[i] &= part[i];
+        AtomMask out(structure_.atoms.size(), 1);
+        for (const SubTree& part : all.parts) {
+            const AtomMask one = of(part);
+            for (std::size_t i = 0; i < out.size(); ++i) out[i] &= one[i];
         }
         return out;
     }
 
     AtomMask of(const AnyOf& any) const
     {
-        AtomMask out = of(any.parts.front());
-        for (std::size_t p = 1; p < any.parts.size(); ++p) {
-            const AtomMask part = of(any.parts[p]);
-            for (std::size_t i = 0; i < out.size(); ++i) out[i] |= part[i];
+        AtomMask out(structure_.atoms.size());
+        for (const SubTree& part : any.parts) {
+            const AtomMask one = of(part);
+            for (std::size_t i = 0; i < out.size(); ++i) out[i] |= one[i];
         }
         return out;
     }
@@ -188,6 +132,43 @@ private:
 
 } // namespace
 
+SubTree treeOf(decltype(SelectionTree::node) node)
+{
+    return std::make_shared<const SelectionTree>(SelectionTree{std::move(node)});
+}
+
+SubTree inRanges(const PropertyWord& property, std::vector<NumberRange> ranges)
+{
+    const auto holds = [&property, all = std::move(ranges)](const SelectionFacts& facts,
+                                                            std::size_t i) {
+        Residue place{};
+        place.number = std::int32_t(property.number(facts, i));
+        const Structure& structure = facts.structure();
+        if (property.residue)
+            place.insertionCode = residueOf(structure, structure.atoms[i]).insertionCode;
+        return std::any_of(all.begin(), all.end(), [&](const NumberRange& range) {
+            return range.from.compare(place) <= 0 && range.to.compare(place) >= 0;
+        });
+    };
+    return treeOf(AtomTest{holds});
+}
+
+SubTree compared(const PropertyWord& property, const std::string& relation, double value)
+{
+    if (!property.lists) value = double(float(value));
+    const auto isSo = [=, &property](const SelectionFacts& facts, std::size_t i) {
+        return holds(property.number(facts, i), relation, value);
+    };
+    return treeOf(AtomTest{isSo, property.place});
+}
+
+int SequenceBound::compare(const Residue& residue) const
+{
+    if (number != residue.number) return number < residue.number ? -1 : 1;
+    if (insertionCode == '*' || insertionCode == residue.insertionCode) return 0;
+    return insertionCode < residue.insertionCode ? -1 : 1;
+}
+
 bool NameGlob::matches(std::string_view name) const
 {
     if (!pattern) return name == text;
@@ -224,6 +205,7 @@ namespace
 std::vector<SubTree> partsOf(const SelectionTree& tree)
 {
     if (const auto* all = std::get_if<AllOf>(&tree.node)) return all->parts;
+    if (const auto* phrase = std::get_if<PhraseOf>(&tree.node)) return phrase->parts;
     if (const auto* some = std::get_if<AnyOf>(&tree.node)) return some->parts;
     if (const auto* no = std::get_if<NotOf>(&tree.node)) return {no->of};
     if (const auto* same = std::get_if<SameAs>(&tree.node)) return {same->of};
@@ -237,7 +219,7 @@ bool asksForPlaces(const SelectionTree& tree)
 {
     if (const auto* same = std::get_if<SameAs>(&tree.node))
         if (same->property && same->property->place) return true;
-    if (const auto* test = std::get_if<NumberTest>(&tree.node)) return test->property->place;
+    if (const auto* test = std::get_if<AtomTest>(&tree.node)) return test->place;
     const std::vector<SubTree> parts = partsOf(tree);
     return std::holds_alternative<NearTo>(tree.node) ||
            std::any_of(parts.begin(), parts.end(),
@@ -250,7 +232,7 @@ std::vector<std::string> unknownNames(const SelectionTree& tree, const Structure
     for (const SubTree& part : partsOf(tree))
         for (std::string& line : unknownNames(*part, structure)) out.push_back(std::move(line));
     const auto* const test = std::get_if<NameTest>(&tree.node);
-    if (!test) return out;
+    if (!test || test->inverted || test->property->element) return out;
     std::unordered_set<std::string_view> names;
     for (const Atom& atom : structure.atoms) names.insert(test->property->text(structure, atom));
     for (const NameGlob& glob : test->names) {

@@ -4,9 +4,9 @@
 /// @file
 /// A selection as a tree, and the atoms that it holds for.
 
-#include "molsurf/selection/selection_phrase.h"
 #include "molsurf/selection/selection_words.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <variant>
@@ -29,33 +29,35 @@ struct NameGlob {
     bool matches(std::string_view name) const;
 };
 
+/// A number of a residue with its insertion code.
+struct SequenceBound {
+    int number;
+    char insertionCode; ///< '*': any
+
+    /// < 0, 0 or > 0 if the bound lies before, at or behind a residue.
+    int compare(const Residue& residue) const;
+};
+
 /// From a number to another; of residues with their insertion codes.
 struct NumberRange {
     SequenceBound from, to;
 };
 
-struct ClassTest {
-    const ClassWord* word;
+/// A test of an atom, given by its index.
+struct AtomTest {
+    std::function<bool(const SelectionFacts& facts, std::size_t atom)> holds;
+    bool place = false; ///< whether it changes when atoms move
 };
 struct NameTest {
     const PropertyWord* property;
     std::vector<NameGlob> names;
-};
-struct RangeTest {
-    const PropertyWord* property;
-    std::vector<NumberRange> ranges;
-};
-struct NumberTest {
-    const PropertyWord* property;
-    std::string relation; ///< "<", "<=", ">", ">=", "=", "==" or "!="
-    double value;
-};
-/// A phrase of gemmi's.
-struct PatternTest {
-    SelectionPattern pattern;
+    bool inverted = false; ///< whether all other names are selected
 };
 struct AllOf {
     std::vector<SubTree> parts;
+};
+/// What a phrase of gemmi's asks for.
+struct PhraseOf : AllOf {
 };
 struct AnyOf {
     std::vector<SubTree> parts;
@@ -77,10 +79,16 @@ struct NearTo {
 
 /// A selection: a test, or an operator and what it is for.
 struct SelectionTree {
-    std::variant<ClassTest, NameTest, RangeTest, NumberTest, PatternTest, AllOf, AnyOf, NotOf,
-                 SameAs, NearTo>
-        node;
+    std::variant<AtomTest, NameTest, AllOf, PhraseOf, AnyOf, NotOf, SameAs, NearTo> node;
 };
+
+SubTree treeOf(decltype(SelectionTree::node) node);
+
+/// Atoms whose number of a property is in one of some ranges.
+SubTree inRanges(const PropertyWord& property, std::vector<NumberRange> ranges);
+
+/// Atoms whose number of a property stands to another: "<", "<=", ">", ">=", "=", "==" or "!=".
+SubTree compared(const PropertyWord& property, const std::string& relation, double value);
 
 /// The atoms that a selection holds for.
 /// @throws Error(ErrorKind::Input) if distances are asked for and an atom lies farther than 1e6 Å

@@ -238,72 +238,6 @@ const OperatorWord operatorWords[] = {{"and & &&", Does::And},
                                       {"around a.", Does::Around},
                                       {"expand x.", Does::Around, nullptr, true}};
 
-/// Words that have no meaning here, and what to write instead.
-struct ForeignWord {
-    const char* words;
-    const char* instead;
-};
-
-const ForeignWord foreignWords[] = {
-    {"extend xt. bound_to bto. neighbor nbr. bonded bymolecule bymol bm. byfragment bf. fragment "
-     "fragindex fragments pfrag nfrag withinbonds",
-     "within 2 of S for what is bonded, byres S for its residues"},
-    {"byring ringsize maxringsize smarts rdkit", "name with the names of the atoms"},
-    {"numbonds n_bonds bondcount", "element C or heavy"},
-    {"near", "within 5 of S, or S around 5"},
-    {"gap", "beyond 5 of S"},
-    {"pbwithin", "within 5 of S"},
-    {"sphzone sphlayer isolayer cyzone cylayer point", "within 5 of S, or x < 5 and y < 5"},
-    {"in like", "the names and numbers themselves, as chain A and resid 10"},
-    {"first last rank", "index 0, or serial with the number of the file"},
-    {"ss secondary secstr sst helix alpha_helix helix_3_10 pi_helix sheet beta_sheet betasheet "
-     "extended_beta bridge_beta turn coil structure",
-     "resid with the numbers of the residues, as resid 10 to 20"},
-    {"pepseq ps. sequence rescode resc code", "resname with names of three letters"},
-    {"resseq residue resindex resindices ridx", "resid with the numbers of the file"},
-    {"chindex segindex chainindex", "chain or segid"},
-    {"segment_id", "segid"},
-    {"mass masses radius radii vdw atomicnumber anum numeric_type nt. text_type tt. atomtype type",
-     "element or name"},
-    {"icode insertion", "resid 52A, the number and its code"},
-    {"hetero heteroatom heteroatoms", "hetatm, or not (polymer or water)"},
-    {"everything", "all"},
-    {"nothing", "none"},
-    {"is_protein", "protein"},
-    {"is_nucleic", "nucleic"},
-    {"is_water", "water"},
-    {"is_backbone nucleicbackbone", "backbone, with and nucleic or and protein"},
-    {"is_sidechain", "sidechain"},
-    {"nucleicbase nucleobase nucleicsugar", "nucleic and not backbone"},
-    {"acidic", "resname ASP GLU"},
-    {"basic", "resname ARG HIS LYS"},
-    {"charged", "resname ARG ASP GLU HIS LYS"},
-    {"aromatic", "resname HIS PHE TRP TYR"},
-    {"aliphatic", "resname ALA GLY ILE LEU VAL"},
-    {"purine", "resname A G DA DG"},
-    {"pyrimidine", "resname C U DC DT"},
-    {"hydrophobic neutral polar buried small medium large cyclic acyclic",
-     "resname with the names"},
-    {"stdaa", "*;protein"},
-    {"nonstdaa", "modified and protein"},
-    {"symbol", "element"},
-    {"metals metal", "ion, or element ZN FE"},
-    {"donors don. donor acceptors acc. acceptor", "element N O"},
-    {"guide", "calpha"},
-    {"formal_charge fc. formalcharge", "charge"},
-    {"bfactors tempfactors", "b < 30"},
-    {"occupancies", "occupancy < 1"},
-    {"charges", "charge < 0"},
-    {"model m. object o. byobject bo. bycell bymodel enabled",
-     "/2/ before a chain for model 2; there is one file"},
-    {"visible present fixed restrained masked protected flag rep color cartoon_color ribbon_color "
-     "label custom stereo state",
-     "what is in the file: names, numbers, elements, places"},
-    {"global group fullgroup moltype molnum record_type chiral box user ufx ufy ufz vx vy vz phi "
-     "psi",
-     "what is in the file: names, numbers, elements, places"},
-    {"sqr sqrt abs sin cos exp log", "comparisons with a number, as x < 5"}};
-
 /// Calls f(word) for each form of a row.
 template<typename F>
 void forEachForm(string_view words, const F& f)
@@ -357,10 +291,14 @@ SelectionFacts::SelectionFacts(const Structure& structure) : structure_(structur
         }
         kinds_.push_back(kind);
     }
-    indices_.resize(structure.atoms.size());
-    for (const Model& model : structure.models)
-        for (std::size_t i = model.begin; i < model.end; ++i)
-            indices_[i] = std::int32_t(i - model.begin);
+}
+
+const Model& SelectionFacts::modelOf(std::size_t atom) const
+{
+    const auto& models = structure_.models;
+    return *std::prev(
+        std::upper_bound(models.begin(), models.end(), atom,
+                         [](std::size_t i, const Model& model) { return i < model.begin; }));
 }
 
 std::optional<SelectionWord> selectionWord(string_view text)
@@ -372,15 +310,10 @@ std::optional<SelectionWord> selectionWord(string_view text)
 
 std::string foreignWord(string_view text)
 {
-    static const std::unordered_map<std::string, const char*> all = [] {
-        std::unordered_map<std::string, const char*> table;
-        for (const ForeignWord& row : foreignWords)
-            forEachForm(row.words,
-                        [&](string_view w) { table.emplace(std::string(w), row.instead); });
-        return table;
-    }();
-    const auto found = all.find(lowered(std::string(text)));
-    return found == all.end() ? "" : found->second;
+    static const std::vector<Synonyms> words = {
+#include "molsurf/selection/foreign_words.inc"
+    };
+    return meaningOf(std::string(text), words);
 }
 
 const std::vector<std::string>& selectionWords()

@@ -30,14 +30,15 @@ public:
     /// Whether a residue has carbon.
     bool hasCarbon(const Atom& atom) const { return carbons_[std::size_t(atom.residue)] != 0; }
 
+    const Model& modelOf(std::size_t atom) const;
+
     /// The place of an atom in its model, from 0.
-    int indexOf(std::size_t atom) const { return indices_[atom]; }
+    int indexOf(std::size_t atom) const { return int(atom - modelOf(atom).begin); }
 
 private:
     const Structure& structure_;
     std::vector<ResidueKind> kinds_; ///< one a residue
     std::vector<char> carbons_;      ///< one a residue
-    std::vector<std::int32_t> indices_;
 };
 
 /// A word that stands alone: "protein".

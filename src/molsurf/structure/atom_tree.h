@@ -56,9 +56,8 @@ void joinModels(Structure& structure);
 /// Makes a structure atom by atom, in the order of the file. A residue has one chain, number,
 /// insertion code and name, and no name of an atom twice in one location:
 /// - Atoms that come later in the model, or of another segment, belong to the first residue with
-/// these that has none of
-///   their names. So do hydrogens at the end of a file, alternatives block by block, and the atoms
-///   of chains that alternate.
+///   these that has none of their names. So do hydrogens at the end of a file, alternatives block
+///   by block, and the atoms of chains that alternate.
 /// - In molecules other than links of chains another residue begins where an atom like the first
 ///   one follows that no bond joins to the atoms before.
 class AtomTree

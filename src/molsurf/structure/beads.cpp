@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 namespace molsurf
 {
@@ -107,10 +108,12 @@ std::vector<std::size_t> extrasOf(const Structure& structure)
 bool isMartini(const Structure& structure)
 {
     const Model& model = structure.models.front();
+    std::unordered_map<string_view, std::size_t> names;
+    for (std::size_t i = model.begin; i < model.end; ++i) ++names[structure.atoms[i].name];
     std::size_t beads = 0, certain = 0;
-    for (std::size_t i = model.begin; i < model.end; ++i) {
-        beads += isBead(structure.atoms[i].name) || isCharge(structure.atoms[i].name);
-        certain += isCertainBead(structure.atoms[i].name);
+    for (const auto& [name, count] : names) {
+        if (isBead(name) || isCharge(name)) beads += count;
+        if (isCertainBead(name)) certain += count;
     }
     if (certain == 0) return false;
     const std::size_t atoms = model.end - model.begin;
@@ -137,15 +140,23 @@ bool isUnnamed(const Structure& structure)
 {
     constexpr double longestBond = 1.9;      // [Å], of heavy atoms in amino acids: C-S 1.8
     constexpr std::size_t shortestTrace = 4; // fewer CA alone may be a part of anything
+    const Model& model = structure.models.front();
+    std::size_t waters = 0;
+    for (std::size_t i = model.begin; i < model.end; ++i) {
+        const Atom& atom = structure.atoms[i];
+        if (residueOf(structure, atom).water())
+            ++waters;
+        else if (atom.name == "N" || atom.name == "C")
+            return false;
+    }
+    if (waters == model.end - model.begin) return false;
     bool sideChain = false;
     std::size_t residues = 0;
     for (const auto& [index, atoms] : residuesOf(structure)) {
         const Residue& residue = structure.residues[std::size_t(index)];
         if (residue.water()) continue;
-        if (!gemmi::find_tabulated_residue(residue.name).is_amino_acid() || !has(atoms, "CA") ||
-            has(atoms, "N") || has(atoms, "C")) {
+        if (!gemmi::find_tabulated_residue(residue.name).is_amino_acid() || !has(atoms, "CA"))
             return false;
-        }
         ++residues;
         sideChain = sideChain || atoms.size() > 1;
         for (const Atom* a : atoms) {

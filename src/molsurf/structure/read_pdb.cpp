@@ -49,8 +49,7 @@ std::size_t hashOf(const Structure& structure, const Atom& atom)
 }
 
 /// END ends a frame, which has at least half of the atoms of the first one, or these half of its
-/// own. What has others is another molecule of
-/// the same structure, as behind the END of a receptor the ligand that cat appended.
+/// own. What has others is another molecule, as the ligand that cat appended to a receptor.
 /// @param[in] named  whether MODEL begins models: then a warning names those of other atoms
 void joinMolecules(Structure& structure, bool named)
 {

@@ -19,6 +19,7 @@ namespace molsurf
 {
 
 struct FileBonds;
+struct AtomMatch;
 
 /// Kind of a residue; classifyResidues() decides. docs/structures.md has the table.
 enum class ResidueKind : std::uint8_t {
@@ -128,8 +129,8 @@ struct Structure {
     std::vector<float> charges;        ///< of the atoms of a PQR or .mol2 file [e]; else empty
     std::vector<std::string> labels;   ///< of the atoms of an xyzrn file: the last column as it
                                        ///< stands there; else empty
-    /// The atoms of selections that ask for places, as they were when resolveSelections() asked.
-    std::map<std::string, std::vector<char>> settled;
+    /// What expressions select, see resolveSelections().
+    std::map<std::string, std::shared_ptr<const AtomMatch>> settled;
     bool hasRadii = false;   ///< true if every atom has the file's own radius
     bool placed = true;      ///< false if the atoms have no places yet, which then are
                              ///< all 0

@@ -6,10 +6,13 @@
 #include "molsurf/structure/read_xtc.h"
 #include "molsurf/structure/text_fields.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <string_view>
 
 namespace molsurf
 {
@@ -41,10 +44,35 @@ std::vector<openvdb::Vec3f> Trajectory::read(std::size_t frame)
     return out;
 }
 
+namespace
+{
+
+/// Refuses a trajectory of another kind with the program that converts it.
+void refuseOtherKinds(const std::string& path)
+{
+    static constexpr struct {
+        std::string_view begin, kind, hint;
+    } kinds[] = {{{"\0\0\7\xc9", 4}, "TRR", " [hint: gmx trjconv writes FILE.xtc]"},
+                 {"CDF", "NetCDF", " [hint: cpptraj writes FILE.dcd]"},
+                 {"\x89HDF\r\n", "HDF5", " [hint: MDAnalysis or mdconvert writes FILE.dcd]"},
+                 {".tng", "TNG", " [hint: gmx trjconv writes FILE.xtc]"}}; // by its name alone
+    char bytes[8] = {};
+    std::ifstream(path, std::ios::binary).read(bytes, sizeof bytes);
+    const std::string_view first(bytes, sizeof bytes), name = path;
+    for (const auto& [begin, kind, hint] : kinds)
+        if (first.substr(0, begin.size()) == begin ||
+            name.substr(name.size() - std::min(name.size(), begin.size())) == begin)
+            failAt(path, "is a trajectory in " + std::string(kind) + ", expected DCD or XTC" +
+                             std::string(hint));
+}
+
+} // namespace
+
 std::unique_ptr<Trajectory> openTrajectory(const std::string& path)
 {
     if (readsOnce(path)) failAt(path, "is a pipe or a device, expected a trajectory's file");
     if (XtcFile::recognizes(path)) return std::make_unique<XtcFile>(path);
+    refuseOtherKinds(path);
     return openDcd(path);
 }
 

@@ -141,7 +141,7 @@ void FrameSource::chooseAtoms()
 void FrameSource::update()
 {
     updates_ = true;
-    structure_.settled.clear();
+    forgetPlaces(structure_);
 }
 
 void FrameSource::superpose(const AnchorRule& rule)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/solver_files.h"
 
+#include "molsurf/core/printable.h"
 #include "molsurf/core/words.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/point_charges.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 namespace molsurf
 {
@@ -38,7 +40,15 @@ void writeInput(const SolverRun& run, const Progress&, OutputFile& file)
     const ApbsFiles files{run.pathOf("charges.pqr"),
                           run.pathOf("kappa.dx"),
                           {run.pathOf("dielx.dx"), run.pathOf("diely.dx"), run.pathOf("dielz.dx")}};
-    writeApbsInput("vdb_molsurf: " + run.title, files, run.grid, run.dielectric, file);
+    writeApbsInput("vdb_molsurf: " + printable(run.title), files, run.grid, run.dielectric, file);
+}
+
+/// Whether a letter ends a name for APBS: a blank, a quote, the sign of a comment, or a control
+/// character.
+bool endsName(char c)
+{
+    return static_cast<unsigned char>(c) <= ' ' || c == 0x7f ||
+           std::string_view("\"#%").find(c) != std::string_view::npos;
 }
 
 } // namespace
@@ -53,12 +63,12 @@ const std::vector<SolverFile>& solverFiles()
 
 std::string solverPath(const std::string& folder, const std::string& input, const std::string& word)
 {
-    if (folder.find_first_of(" \t\"") != std::string::npos)
+    if (std::any_of(folder.begin(), folder.end(), endsName))
         throw Error(ErrorKind::Usage, "'" + folder +
-                                          "': APBS reads no names with spaces, expected a folder "
-                                          "without");
+                                          "': APBS reads no names with spaces, quotes, # or %, "
+                                          "expected a folder without");
     std::string stem = inputStem(input) + ".";
-    std::replace(stem.begin(), stem.end(), ' ', '_');
+    std::replace_if(stem.begin(), stem.end(), endsName, '_');
     return (std::filesystem::path(folder) / ((word == "apbs.in" ? "" : stem) + word)).string();
 }
 

@@ -302,7 +302,7 @@ TEST(Words, WarnOfAnAlternativeWithoutAtoms)
     EXPECT_TRUE(matchAtoms(codes(), "resn ZN or resn ALA").warnings.empty());
 }
 
-// Of a trajectory's frames the first decides, for words that ask for places, and for no others.
+// Of a trajectory's frames the first decides, for words that ask for places alone.
 TEST(Words, AreSettledByTheFirstModel)
 {
     Structure s = readStructure(dataFile("1d3z.pdb.gz"));
@@ -313,10 +313,11 @@ TEST(Words, AreSettledByTheFirstModel)
     options.groups = {{"near", "chain A within 4 of resid 3", {}}, {"all", "name CA", {}}};
     options.resolutions = {{"z < 3", 5.0}};
     resolveSelections(options, first, s);
-    EXPECT_EQ(s.settled.size(), 3u);
-    EXPECT_EQ(s.settled.count("name CA"), 0u);
-    for (const auto& [phrase, atoms] : s.settled) {
-        const auto at = [&, &all = atoms](std::size_t i) {
+    EXPECT_EQ(s.settled.size(), 4u);
+    for (const auto& [phrase, match] : s.settled) {
+        EXPECT_EQ(match->byPlace, phrase != "name CA") << phrase;
+        if (!match->byPlace) continue;
+        const auto at = [&, &all = match->atoms](std::size_t i) {
             return all.begin() + std::ptrdiff_t(i);
         };
         EXPECT_GT(std::count(at(first.begin), at(first.end), 1), 0) << phrase;
@@ -324,11 +325,13 @@ TEST(Words, AreSettledByTheFirstModel)
         EXPECT_FALSE(std::equal(at(s.models[2].begin), at(s.models[2].end), at(first.begin)))
             << phrase;
     }
+    forgetPlaces(s);
+    EXPECT_EQ(s.settled.size(), 1u);
     Structure other = readStructure(dataFile("1d3z.pdb.gz"));
     const AtomMatch own = matchAtoms(other, options.select);
     other.models[2].end -= 1; // no other has its size
     resolveSelections(options, other.models[2], other);
-    EXPECT_EQ(other.settled.at(options.select), own.atoms);
+    EXPECT_EQ(other.settled.at(options.select)->atoms, own.atoms);
 }
 
 // Whichever model is asked for: all others have its atoms.
@@ -340,13 +343,32 @@ TEST(Words, AreSettledByALaterModel)
     options.select = "chain A within 4 of resid 3";
     const std::vector<char> before = matchAtoms(s, options.select).atoms;
     resolveSelections(options, own, s);
-    const std::vector<char>& after = s.settled.at(options.select);
+    const std::vector<char>& after = s.settled.at(options.select)->atoms;
     const auto from = [](const std::vector<char>& atoms, const Model& model) {
         return std::vector<char>(atoms.begin() + std::ptrdiff_t(model.begin),
                                  atoms.begin() + std::ptrdiff_t(model.end));
     };
     EXPECT_NE(from(before, s.models[0]), from(before, own));
     for (const Model& model : s.models) EXPECT_EQ(from(after, model), from(before, own));
+}
+
+// What one frame warns of, and refuses, the next ones do, too.
+TEST(Words, AreMatchedOnceWithTheirModelsAndWarnings)
+{
+    Structure s = readStructure(dataFile("1d3z.pdb.gz"));
+    SelectOptions options;
+    options.select = "/2/A or resname ALA XYZ";
+    options.pocketAt = "chain Z"; // matches nothing
+    const AtomMatch before = matchAtoms(s, options.select);
+    EXPECT_EQ(before.models, std::vector<int>{2});
+    ASSERT_EQ(before.warnings.size(), 1u);
+    resolveSelections(options, s.models[0], s);
+    EXPECT_EQ(s.settled.size(), 1u);
+    s.atoms.front().name = "CB"; // not looked at
+    const AtomMatch after = matchAtoms(s, options.select);
+    EXPECT_EQ(after.atoms, before.atoms);
+    EXPECT_EQ(after.models, before.models);
+    EXPECT_EQ(after.warnings, before.warnings);
 }
 
 TEST(Words, RefuseDistancesWhereAtomsAreFarAway)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/describe_structure.h"
+#include "molsurf/io/describe_structure.h"
 
 #include "molsurf/core/printable.h"
 #include "molsurf/core/words.h"
