@@ -211,7 +211,7 @@ std::vector<std::string> fieldNames()
 {
     std::vector<std::string> names;
     for (const FieldRow& row : fieldTable())
-        if (!row.needs) names.push_back(row.name);
+        if (!row.needs && !row.inTables) names.push_back(row.name);
     return names;
 }
 

@@ -69,7 +69,7 @@ const std::vector<FieldRow>& fieldTable();
 /// The row of a name, or null.
 const FieldRow* findField(const std::string& name);
 
-/// The names of those that need nothing else to be asked for.
+/// The names of those that need nothing else to be asked for, and no work beside the surface.
 std::vector<std::string> fieldNames();
 
 /// Adds the fields that the options ask for and that the stages of a run leave to its surface.
