@@ -11,11 +11,15 @@
 #include "molsurf/progress.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <vector>
 
 namespace molsurf
 {
+
+/// How deep a place with a clearance lies below what a large probe reaches from outside.
+using DepthAt = std::function<OuterDepth::Depth(const openvdb::Vec3d&, double)>;
 
 using PocketOptions = Wanted::PocketRule;
 

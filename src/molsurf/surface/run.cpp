@@ -17,6 +17,7 @@
 #include "molsurf/surface/pockets.h"
 #include "molsurf/surface/pore.h"
 #include "molsurf/surface/surface_kind.h"
+#include "molsurf/surface/tunnels.h"
 #include "molsurf/surface/unit_mesh.h"
 #include "molsurf/surface/unit_run.h"
 #include "molsurf/surface/whole_only.h"
@@ -63,9 +64,12 @@ void checkWanted(const BallSet& atoms, const SurfaceOptions& options)
     if ((options.ofParts() || options.interfaces || ofPrototypes(atoms)) &&
         (!atoms.labels || atoms.labels->groups.empty()))
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
-    if (atoms.pore && !atoms.placement.isWhole())
-        throw Error(ErrorKind::Usage,
-                    "`pore`: expected one surface, and not `instances` or `bySymmetry`");
+    for (const auto& [asked, option] : {std::pair(atoms.pore.has_value(), "`pore`"),
+                                        std::pair(atoms.tunnelsFrom.has_value(), "`tunnelsFrom`")})
+        if (asked && !atoms.placement.isWhole())
+            throw Error(ErrorKind::Usage,
+                        std::string(option) +
+                            ": expected one surface, and not `instances` or `bySymmetry`");
     if (wantsPockets(options) && ofPrototypes(atoms))
         throw Error(ErrorKind::Usage, "`pockets`: expected one surface, and not `instances`");
     if (!options.ballAreas) return;
@@ -141,6 +145,7 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
         measureInterfaces(atoms, shown, options.ballAreas, progress, result.report);
     if (wantsPockets(options)) addPockets(atoms, options, progress, result);
     if (atoms.pore) addPore(atoms, progress, result.report);
+    if (atoms.tunnelsFrom) addTunnels(atoms, options, progress, result.report);
     if (options.contacts) result.contacts = contactAreas(atoms.balls, probeOf(shown), progress);
     if (options.halfFloats) saveAsHalf(result.grids());
     return std::move(result);
