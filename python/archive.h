@@ -221,8 +221,8 @@ MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
 MOLSURF_MEMBERS(PointCharge, v.position, v.charge, v.radius, v.atom, v.residue, v.chain, v.number)
 MOLSURF_MEMBERS(PointCharges, v.atoms)
 MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.placement,
-                v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.pocketAt, v.pore, v.coloring,
-                v.radii, v.model, v.membrane, v.charges, v.warnings)
+                v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.pocketAt, v.pore,
+                v.tunnelsFrom, v.coloring, v.radii, v.model, v.membrane, v.charges, v.warnings)
 MOLSURF_MEMBERS(BallSet::PoreWay, v.ends, v.axis)
 MOLSURF_MEMBERS(Attribute<float>, v.name, v.values, v.names)
 MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values, v.names)
@@ -251,6 +251,8 @@ MOLSURF_MEMBERS(Report::Pore::Station, v.place, v.normal, v.distance, v.radius, 
                 v.lining)
 MOLSURF_MEMBERS(Report::Pore::Way, v.radius, v.place)
 MOLSURF_MEMBERS(Report::Pore, v.axis, v.stations, v.crossed, v.bundle, v.others)
+MOLSURF_MEMBERS(Report::Tunnels::Tunnel, v.stations)
+MOLSURF_MEMBERS(Report::Tunnels, v.start, v.startRadius, v.probe, v.probeOut, v.list)
 MOLSURF_MEMBERS(Report::Resolution, v.select, v.resolution, v.atoms, v.level)
 MOLSURF_MEMBERS(Report::Part, v.name, v.atoms, v.surface)
 MOLSURF_MEMBERS(Report::Copy, v.part, v.name, v.matrix)
@@ -258,8 +260,9 @@ MOLSURF_MEMBERS(Report::Symmetry, v.pointGroup, v.order, v.copies, v.deviation, 
                 v.openVertices)
 MOLSURF_MEMBERS(Report, v.program, v.version, v.command, v.input, v.atoms, v.voxel, v.center,
                 v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.pockets, v.pore,
-                v.parts, v.instances, v.symmetry, v.evolution, v.activeVoxels, v.gridBytes,
-                v.seconds, v.peakMemoryBytes, v.threads, v.warnings, v.areasOf, v.measures)
+                v.tunnels, v.parts, v.instances, v.symmetry, v.evolution, v.activeVoxels,
+                v.gridBytes, v.seconds, v.peakMemoryBytes, v.threads, v.warnings, v.areasOf,
+                v.measures)
 
 #undef MOLSURF_MEMBERS
 

@@ -385,6 +385,12 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
             throw Error(ErrorKind::Usage, "table: expected atoms read with `pore`, got none");
         return dictOf(result.report.pore->table(atoms));
     }
+    if (name == "tunnels") {
+        if (!result.report.tunnels)
+            throw Error(ErrorKind::Usage,
+                        "table: expected atoms read with `tunnelsFrom`, got none");
+        return dictOf(result.report.tunnels->table(atoms));
+    }
     if (result.contacts.empty())
         result.contacts =
             run(How(), [&](Progress& p) { return contactAreas(atoms.balls, probe, p); });

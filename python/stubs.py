@@ -82,7 +82,8 @@ ARRAYS = {"vertices": "float32", "normals": "float32", "faces": "int32", "curvat
           "gaussian_curvature": "float32", "shape_index": "float64", "principal_curvatures": "float64",
           "colors": "uint8", "atom": "int32", "atom_areas": "float64", "cavities": "float64"}
 PLAIN = {"vertex_data": "dict[str, NDArray[Any]]", "contacts": "Contacts",
-         "pockets": "dict[str, NDArray[Any]]", "pore": "dict[str, NDArray[Any]]", "area": "float", "volume": "float",
+         "pockets": "dict[str, NDArray[Any]]", "pore": "dict[str, NDArray[Any]]",
+         "tunnels": "dict[str, NDArray[Any]]", "area": "float", "volume": "float",
          "closed": "bool", "kind": "str", "report": "dict[str, Any]"}
 OF_ATOMS = {"positions": "float64", "radii": "float64", "name": "str_", "element": "int32", "residue": "str_",
             "residue_number": "int32", "insertion_code": "str_", "residue_index": "int32", "chain": "str_",
@@ -90,7 +91,7 @@ OF_ATOMS = {"positions": "float64", "radii": "float64", "name": "str_", "element
 OF_MOLECULES = {"copies": "int", "groups": "list[str]", "warnings": "list[str]"}
 
 METHODS = '''\
-    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets", "pore"],
+    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets", "pore", "tunnels"],
               level: Literal["atom", "residue", "chain"] = "residue") -> dict[str, NDArray[Any]]: ...
     def forces(self, gamma: float | None = None, pressure: float | None = None, *,
                progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> NDArray[np.float64]: ...

@@ -383,6 +383,19 @@ std::string poreLine(const Report::Pore& pore)
     return line;
 }
 
+/// A line on the tunnels.
+std::string tunnelsLine(const Report::Tunnels& tunnels)
+{
+    const auto& start = tunnels.start;
+    const auto& first = tunnels.list.front();
+    const auto& least = first.narrowest();
+    return formatted("tunnels: %zu from (%.2f, %.2f, %.2f); the widest: %.3f Å at (%.2f, %.2f, "
+                     "%.2f), length %.1f Å, curvature %.2f",
+                     tunnels.list.size(), start[0], start[1], start[2], least.radius,
+                     least.place[0], least.place[1], least.place[2], first.length(),
+                     first.curvature());
+}
+
 /// Names pages that are slow to load or to send, with options that make them lighter. Triangles,
 /// and so their bytes, go by the inverse square of the voxel. 4V5A, 1K4R and 1F2N have about 16
 /// bytes an atom besides, and their solvent-excluded surfaces half as many triangles again as the
@@ -417,6 +430,7 @@ Report buildSurface(const Call& call, const BallSet& balls, const Report& read, 
     say(summary(report));
     if (report.pockets) say(pocketsLine(*report.pockets));
     if (report.pore) say(poreLine(*report.pore));
+    if (report.tunnels) say(tunnelsLine(*report.tunnels));
     for (const std::string& line : leftOutOf(call)) say(line);
     sayLargePages(call, balls.balls.size());
     const std::string closed = dependsOnGaps(call) ? closedByField(report, call.options) : "";

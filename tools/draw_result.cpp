@@ -104,6 +104,7 @@ Call panelCall(Call call)
                                 [](const auto& field) { return !findCurvatureField(field); }),
                  fields.end());
     call.atoms.pore.clear();
+    call.atoms.tunnelsFrom.clear();
     call.atoms.pocketAt.clear();
     call.atoms.model = 0;
     call.viewed.clear(); // the first structure says where the eye is

@@ -38,6 +38,7 @@
 #include "molsurf/surface/pore.h"
 #include "molsurf/surface/solver_files.h"
 #include "molsurf/surface/stored_surface.h"
+#include "molsurf/surface/tunnels.h"
 #include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
@@ -125,6 +126,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     if (name == "interfaces") table = interfaceTable(atoms, result.report);
     if (name == "pockets") return result.report.pockets->table(atoms);
     if (name == "pore") return result.report.pore.value_or(Report::Pore()).table(atoms);
+    if (name == "tunnels") return result.report.tunnels.value_or(Report::Tunnels()).table(atoms);
     if (name == "forces") table = forceTable(atoms, shown, result.mesh);
     addOrigin(atoms, result.report.areasOf, probeOf(shown), table);
     return table;
@@ -329,10 +331,12 @@ void writeAreaTable(const Writing& w, OutputFile& file)
     writeCsv(areaTable(w.output.format->table, w.call, w.atoms, w.result), file);
 }
 
-/// The pore where the mesh lies.
+/// The pore or the tunnels where the mesh lies.
 Mesh tubeOf(const Writing& w)
 {
-    Mesh tube = poreTube(*w.result.report.pore);
+    const Report& report = w.result.report;
+    Mesh tube = w.output.format->table == std::string("tunnels") ? tunnelTubes(*report.tunnels)
+                                                                 : poreTube(*report.pore);
     for (openvdb::Vec3f& x : tube.positions)
         x = openvdb::Vec3f(openvdb::Vec3d(x) - originOf(w.call));
     return tube;
@@ -356,6 +360,26 @@ void writeBeside(const Writing& w, const Mesh& mesh, OutputFile& file)
 void writeTube(const Writing& w, OutputFile& file)
 {
     writeBeside(w, tubeOf(w), file);
+}
+
+/// Writes the balls of tunnels with their radii as B factors.
+void writeTunnelPdb(const Writing& w, OutputFile& file)
+{
+    const BallSet balls = tunnelBalls(*w.result.report.tunnels);
+    std::vector<double> radii;
+    for (const Ball& ball : balls.balls) radii.push_back(ball.radius);
+    writePdb(balls, radii, originOf(w.call), file);
+}
+
+void writeTunnelCif(const Writing& w, OutputFile& file)
+{
+    writeTunnelsCif(w.atoms, *w.result.report.tunnels, originOf(w.call), file);
+}
+
+template<void write(const Report::Tunnels&, const openvdb::Vec3d&, OutputFile&)>
+void writeTunnelScript(const Writing& w, OutputFile& file)
+{
+    write(*w.result.report.tunnels, originOf(w.call), file);
 }
 
 /// The body of one pocket where the mesh lies.
@@ -409,7 +433,7 @@ namespace
 std::vector<Format> areaFormats()
 {
     constexpr const char* ofAreas = "table of areas";
-    constexpr const char* ofPore = ""; // --pore says it
+    constexpr const char *ofPore = "", *ofTunnels = ""; // --pore and --tunnels-from say it
     constexpr unsigned ofPocket = Areas | Numbered;
     constexpr const char* perPocket = ""; // --pockets says it
     constexpr const char* withAreas = "areas as B factors";
@@ -431,6 +455,15 @@ std::vector<Format> areaFormats()
         {"pore.ply", built, Areas, ofPore, "pore", writeTube},
         {"pore.obj", built, Areas, ofPore, "pore", writeTube},
         {"pore.glb", built, Areas, ofPore, "pore", writeTube},
+        {"tunnels.csv", built, Areas, ofAreas, "tunnels", writeAreaTable},
+        {"tunnels.ply", built, Areas, ofTunnels, "tunnels", writeTube},
+        {"tunnels.obj", built, Areas, ofTunnels, "tunnels", writeTube},
+        {"tunnels.glb", built, Areas, ofTunnels, "tunnels", writeTube},
+        {"tunnels.pdb", built, Areas, ofTunnels, "tunnels", writeTunnelPdb},
+        {"tunnels.cif", built, Areas, ofTunnels, "tunnels", writeTunnelCif},
+        {"tunnels.cxc", built, Areas, ofTunnels, "tunnels",
+         writeTunnelScript<writeTunnelsChimeraX>},
+        {"tunnels.pml", built, Areas, ofTunnels, "tunnels", writeTunnelScript<writeTunnelsPymol>},
         {"pockets.ply", Build, ofPocket, perPocket, "pockets", writeBody},
         {"pockets.obj", Build, ofPocket, perPocket, "pockets", writeBody},
         {"pockets.stl", Build, ofPocket, perPocket, "pockets", writeBody},

@@ -7,7 +7,7 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'pockets.vdb' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'pockets.vdb' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'tunnels.csv' 'tunnels.ply' 'tunnels.obj' 'tunnels.glb' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--superpose") compadd -- 'auto'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
@@ -20,7 +20,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
-    "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'forces'; return ;;
+    "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
     "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
     "build:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd'; return ;;
     "build:--view") compadd -- 'auto'; return ;;
@@ -41,7 +41,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
-    "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'forces'; return ;;
+    "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
     "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
     "batch:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd'; return ;;
     "batch:--view") compadd -- 'auto'; return ;;
@@ -158,6 +158,8 @@ if [[ $words[CURRENT] == -* ]]; then
       '--pocket-cut:pockets begin so far below the surface of that probe [Å]'
       '--pocket-neck:two pockets, where the ball that passes between them has'
       '--pore:the pore, for the report, .pore.csv, profiles .pore.svg,'
+      '--tunnels-from:the ways out of a place, for the report, .tunnels.csv, and'
+      '--tunnel-probe:tunnels are at least as wide as a ball of this radius [Å],'
       '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
       '--center:the middle of the surface comes to the origin'
@@ -265,6 +267,8 @@ if [[ $words[CURRENT] == -* ]]; then
       '--pocket-cut:pockets begin so far below the surface of that probe [Å]'
       '--pocket-neck:two pockets, where the ball that passes between them has'
       '--pore:the pore, for the report, .pore.csv, profiles .pore.svg,'
+      '--tunnels-from:the ways out of a place, for the report, .tunnels.csv, and'
+      '--tunnel-probe:tunnels are at least as wide as a ball of this radius [Å],'
       '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
       '--center:the middle of the surface comes to the origin'

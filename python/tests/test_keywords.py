@@ -110,7 +110,7 @@ def test_every_keyword_is_taken(crambin):
                 "voxel": 1.0, "probe": 1.2, "blobbiness": 2.0, "epsilon": 0.4, "match": "ses", "remesh": 0.7, "density": 1.5, "adapt": 0.05,
                 "palette": "cividis", "value_of": "residue", "outward": 2,
                 "pocket_at": "resid 5", "probe_in": 1.2, "probe_out": 5, "pocket_cut": 1, "pocket_neck": 0.4,
-                "pore": "resid 2 -> resid 30", "min_wall": 1.5,
+                "pore": "resid 2 -> resid 30", "tunnels_from": "resid 30", "tunnel_probe": 1.2, "min_wall": 1.5,
                 "measures": ["sphericity", "gyration_radius"]}
     for name, row in _options.KEYWORDS.items():
         value = True if row["type"] == "switch" else examples[name]

@@ -118,6 +118,16 @@ def test_a_pore_is_a_table(crambin, ses):
         ses.pore
 
 
+def test_tunnels_are_a_table(ses):
+    from conftest import DATA
+    surface = ms.read(DATA / "1grm.pdb.gz", tunnels_from="resid 1").surface(kind="ses", voxel=1)
+    assert set(surface.tunnels["tunnel"]) == {1, 2}  # both ends of the channel
+    assert min(surface.tunnels["radius_A"]) == min(one["radius"] for one in surface.report["tunnels"]["list"])
+    assert set(pickle.loads(pickle.dumps(surface)).tunnels) == set(surface.table("tunnels"))
+    with pytest.raises(ValueError, match="tunnels_from"):
+        ses.tunnels
+
+
 def test_pockets_are_a_table(crambin, ses):
     surface = crambin.surface(kind="ses", voxel=0.7, pockets=True, pocket_cut=0)
     table = surface.pockets

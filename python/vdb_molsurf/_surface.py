@@ -287,6 +287,11 @@ class Surface:
         return self.table("pore")
 
     @property
+    def tunnels(self):
+        """Table of the tunnels, a row for each place along them, of atoms that were read with tunnels_from="resid 57"."""
+        return self.table("tunnels")
+
+    @property
     def closed(self):
         """Whether every edge of the mesh has two triangles."""
         return self._core.closed
@@ -302,11 +307,11 @@ class Surface:
         return json.loads(self._core.report_text())
 
     def table(self, name, level="residue"):
-        """A table as a dict of arrays: "atoms", "residues", "contacts", "interfaces", "pockets" or "pore".
+        """A table as a dict of arrays: "atoms", "residues", "contacts", "interfaces", "pockets", "pore" or "tunnels".
 
         level: of contacts: "atom", "residue" or "chain".
         """
-        names = ("atoms", "residues", "contacts", "interfaces", "pockets", "pore")
+        names = ("atoms", "residues", "contacts", "interfaces", "pockets", "pore", "tunnels")
         levels = ("atom", "residue", "chain")
         if name not in names:
             raise ValueError(f"table: expected {', '.join(names)}, got '{str(name)[:40]}'")

@@ -236,6 +236,8 @@ struct SelectOptions {
     /// The pore that is wanted: "auto", an axis as "z" or "0,0,1", or its ends with " -> " between,
     /// each a point as "1,2,3" or atoms of the file. docs/pores.md. Empty: none.
     std::string pore;
+    std::string tunnelsFrom; ///< where tunnels begin: a point as "1,2,3" or atoms of the file, used
+                             ///< or not; empty: none are wanted
     std::optional<std::array<std::uint8_t, 3>>
         plainColor;         ///< red, green, blue (sRGB) that all balls get, if it is given
     bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
@@ -350,6 +352,7 @@ struct BallSet : BallModel {
                                                      ///< if the caller chose none
     std::vector<openvdb::Vec3d> pocketAt;            ///< places of SelectOptions::pocketAt [Å]
     std::optional<PoreWay> pore;                     ///< as SelectOptions::pore says
+    std::optional<PoreWay::End> tunnelsFrom;         ///< as SelectOptions::tunnelsFrom says
     SelectOptions::Coloring coloring;                ///< as SelectOptions::coloring
     std::string radii; ///< the name of the set, or of the file, that the radii are from; empty: the
                        ///< structure's own

@@ -59,6 +59,8 @@ struct Wanted : KernelProducts {
     bool contacts = false;             ///< whether MolecularSurface::contacts is made
     bool pockets = false;              ///< whether the report has pockets
     PocketRule pocket;                 ///< which
+    double tunnelProbe = 0.9; ///< tunnels are as wide as this at least, in [0.3, 10] [Å]; they
+                              ///< end where a ball of PocketRule::probeOut gets
     /// The kind of surface that ballAreas, contacts and interfaces are of; none: that of `kind`.
     std::optional<SurfaceKind> areasOf;
     /// Whether there is a grid and a mesh of it. Without them the result has what is known in

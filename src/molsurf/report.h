@@ -178,7 +178,7 @@ struct Table {
     };
 
     std::string name; ///< "atoms", "residues", "contacts", "interfaces", "pockets",
-                      ///< "pore" or "forces"
+                      ///< "pore", "tunnels" or "forces"
     std::vector<Column> columns;
 };
 
@@ -356,6 +356,32 @@ struct Report {
         static constexpr double leastWater = 1.15;
     };
 
+    /// The ways out of a place in the molecule. docs/pores.md.
+    struct Tunnels {
+        /// A way from the start to the outside.
+        struct Tunnel {
+            std::vector<Pore::Station> stations{}; ///< from the start on; their distances are along
+                                                   ///< the way, and their balls touch three atoms
+            double length() const { return stations.back().distance; }
+            const Pore::Station& narrowest() const;
+            double curvature() const; ///< its length over the distance of its ends
+        };
+
+        std::array<double, 3> start = {}; ///< the centre of the room where they begin [Å]
+        double startRadius = 0.0;         ///< of the ball there [Å]
+        double probe = 0.0;               ///< all are as wide as this at least [Å]
+        double probeOut = 0.0;    ///< they end at what a ball of this reaches from outside [Å]
+        std::vector<Tunnel> list; ///< the widest at their narrowest places first
+
+        /// A row for every station: tunnel (its number from 1), distance_A, x_A, y_A, z_A,
+        /// radius_A, bottleneck (1 or 0), residues and atom_ids (within 1 Å, the nearest first),
+        /// and of its tunnel bottleneck_A (the least radius), length_A, curvature, hydrophobicity
+        /// (mean over the lining, of Kyte and Doolittle), charge (of side chains), and what was
+        /// asked for: probe_A and probe_out_A.
+        /// @param[in] atoms  that they are of
+        Table table(const BallSet& atoms) const;
+    };
+
     std::string program = "vdb_molsurf";
     std::string version;                         ///< of the program
     std::string commit;                          ///< that it was built of; empty if not from git
@@ -386,6 +412,7 @@ struct Report {
     std::vector<std::string> warnings;                   ///< one line each
     std::optional<Pockets> pockets;                      ///< if they were asked for
     std::optional<Pore> pore;                            ///< if it was asked for
+    std::optional<Tunnels> tunnels;                      ///< if they were asked for
     std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are
                          ///< none
     std::vector<std::pair<std::string, double>> measures; ///< numbers that were asked for, by name

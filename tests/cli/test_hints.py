@@ -383,6 +383,13 @@ CASES = {
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv"),
         ("ends where atoms are on all sides, or in front of the mouths", "vdb_molsurf 1grm.pdb.gz --pore '22,-12,3 -> 22,12,3' -o a.pore.csv",
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv")],
+    "pockets/find_tunnels.cpp": [
+        ("atoms beside it, as resid 57, or a smaller --tunnel-probe", "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,0,3 -o a.tunnels.csv",
+         "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnels.csv"),
+        ("a larger --probe-out", "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,40,3 -o a.tunnels.csv",
+         "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,-4,3 --probe-out 5 -o a.tunnels.csv"),
+        ("a smaller --tunnel-probe", "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' --tunnel-probe 1.35 -o a.tunnels.csv",
+         "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' --tunnel-probe 1.2 -o a.tunnels.csv")],
     "surface/pockets.cpp": [
         ("--voxel 0.7", "vdb_molsurf 1crn.pdb --voxel 1 -o a.pockets.csv", "vdb_molsurf 1crn.pdb --voxel 0.7 -o b.pockets.csv"),
         ("--surface ses", "vdb_molsurf 1crn.pdb --color pocket --voxel 0.7 -o a.ply",
@@ -497,6 +504,10 @@ CASES = {
     "tools/cli/option_table.cpp": [
         ("all cores are used without --threads", f"vdb_molsurf one.xyzr {FAST} -j 0 -o a.ply", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
     "tools/cli/pair_table.cpp": [
+        ('--tunnels-from "resid 57", for example', "vdb_molsurf 1grm.pdb.gz -o a.tunnels.csv",
+         "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnels.csv"),
+        ("--model 2", "vdb_molsurf 1d3z.pdb.gz --frames 1-2 --tunnels-from 'resid 44' -o a.tunnels.csv",
+         "vdb_molsurf 1d3z.pdb.gz --model 2 --tunnels-from 'resid 44' -o a.tunnels.csv"),
         ("vdb_molsurf compare A B --superpose auto", f"vdb_molsurf 1crn.pdb {FAST} --superpose auto -o a.ply",
          f"cp 1crn.pdb A; cp 1crn.pdb B; vdb_molsurf compare A B --superpose auto {FAST}"),
         ("another --color", f"vdb_molsurf 1d3z.pdb.gz {FAST} --frames 1 --superpose auto --color potential=x.dx -o a.ply",

@@ -158,5 +158,99 @@ class Pores(ToolTest):
         self.check(2, GRAMICIDIN, "-o", ".pore.csv", says=["expected a name in front of .pore.csv"])
 
 
+class Tunnels(ToolTest):
+    """A chamber from which square shafts lead out: along x as wide as a ball of 1.5 Å, along y of 2.5 Å."""
+
+    def setUp(self):
+        super().setUp()
+        places = range(-9, 10)
+        self.balls = [(x, y, z) for x in places for y in places for z in places
+                      if not (max(abs(x), abs(y), abs(z)) < 4 or (x > 0 and max(abs(y), abs(z)) < 3)
+                              or (y > 0 and max(abs(x), abs(z)) < 4))]
+        (self.folder / "two.xyzr").write_text("".join(f"{x} {y} {z} 1.5\n" for x, y, z in self.balls))
+
+    def table(self, name):
+        with open(self.folder / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_each_way_out_of_a_chamber_is_a_tunnel(self):
+        names = [f"a.{end}" for end in ("tunnels.csv", "json", "tunnels.ply", "tunnels.obj", "tunnels.glb", "tunnels.pdb",
+                                        "tunnels.cif", "tunnels.cxc", "tunnels.pml")]
+        self.check(0, "two.xyzr", "--tunnels-from", "0,0,0", "--surface", "ses", "--voxel", 1,
+                   *(word for name in names for word in ("-o", name)),
+                   says=["tunnels: 2 from (", "the widest: 2.500 Å at (", "curvature 1."])
+        rows = self.table("a.tunnels.csv")
+        self.assertEqual(list(rows[0]), ["tunnel", "distance_A", "x_A", "y_A", "z_A", "radius_A", "bottleneck", "residues", "atom_ids",
+                                         "bottleneck_A", "length_A", "curvature", "hydrophobicity", "charge", "probe_A", "probe_out_A"])
+        self.assertEqual({row["tunnel"] for row in rows}, {"1", "2"})
+        report = json.loads((self.folder / "a.json").read_text())["tunnels"]
+        self.assertEqual((report["probe"], report["probe_out"]), (0.9, 4))
+        for number, expected, along, across in (("1", 2.5, "y_A", "x_A"), ("2", 1.5, "x_A", "y_A")):
+            own = [row for row in rows if row["tunnel"] == number]
+            radii = [float(row["radius_A"]) for row in own]
+            self.assertAlmostEqual(min(radii), expected, places=5)
+            self.assertEqual({float(row["bottleneck_A"]) for row in own}, {min(radii)})
+            self.assertEqual(own[radii.index(min(radii))]["bottleneck"], "1")
+            self.assertGreater(float(own[-1][along]), 7)
+            self.assertAlmostEqual(float(own[-1][across]), 0, delta=2)
+            ends = [[float(row[key]) for key in ("x_A", "y_A", "z_A")] for row in (own[0], own[-1])]
+            self.assertAlmostEqual(float(own[0]["curvature"]), float(own[-1]["distance_A"]) / math.dist(*ends), places=9)
+            for row in own:
+                place = [float(row[key]) for key in ("x_A", "y_A", "z_A")]
+                self.assertAlmostEqual(float(row["radius_A"]), min(math.dist(place, ball) for ball in self.balls) - 1.5, places=6)
+            of_report = report["list"][int(number) - 1]
+            self.assertEqual(of_report["radius"], min(radii))
+            self.assertEqual(of_report["profile"]["radius"], radii)
+        # the other files have the same balls
+        atoms = [line for line in (self.folder / "a.tunnels.pdb").read_text().splitlines() if line.startswith("HETATM")]
+        self.assertEqual([int(line[22:26]) for line in atoms], [int(row["tunnel"]) for row in rows])
+        for line, row in zip(atoms, rows):
+            self.assertAlmostEqual(float(line[30:38]), float(row["x_A"]), delta=0.001)
+            self.assertAlmostEqual(float(line[60:66]), float(row["radius_A"]), delta=0.006)
+        cif = (self.folder / "a.tunnels.cif").read_text()
+        profile = cif[cif.index("_sb_ncbr_channel_profile.charge"):].splitlines()[1:]
+        self.assertEqual(len(profile), len(rows))
+        self.assertEqual(float(profile[-1].split()[4]), 1)
+        self.assertEqual([float(line.split()[1]) for line in profile], [round(float(row["radius_A"]), 4) for row in rows])
+        self.assertEqual((self.folder / "a.tunnels.cxc").read_text().count("marker #1002 position "), len(own))
+        self.assertEqual((self.folder / "a.tunnels.pml").read_text().count("pseudoatom tunnel_2,"), len(own))
+        _, _, triangles = read_ply((self.folder / "a.tunnels.ply").read_bytes())
+        edges = {(t[k], t[k - 1]) for t in triangles for k in range(3)}
+        self.assertEqual(edges, {(b, a) for a, b in edges})
+        self.assertIn("tunnel 2", (self.folder / "a.tunnels.glb").read_bytes().decode("latin-1"))
+
+    def test_probes_say_what_is_a_tunnel(self):
+        self.check(0, "two.xyzr", "--tunnels-from", "0,0,0", "--tunnel-probe", 2, "-o", "b.tunnels.csv", says="tunnels: 1 from")
+        self.check(1, "two.xyzr", "--tunnels-from", "0,0,0", "--tunnel-probe", 2.6, "-o", "c.tunnels.csv", says="a smaller --tunnel-probe")
+        self.check(1, "two.xyzr", "--tunnels-from", "0,0,0", "--probe-out", 2.4, "-o", "c.tunnels.csv", says="a larger --probe-out")
+        self.check(2, "two.xyzr", "--tunnels-from", "0,0,0", "--tunnel-probe", 5, "-o", "c.tunnels.csv", says="less than --probe-out")
+
+    def test_from_the_middle_of_a_channel_both_ends_are_ways_out(self):
+        args = (GRAMICIDIN, "--tunnels-from", "resid 1")
+        self.check(0, *args, "--surface", "ses", "--voxel", 1, "-o", "d.tunnels.csv", "-o", "d.json")
+        rows = self.table("d.tunnels.csv")
+        for number, end, residue in (("1", -12, "B/TRP13"), ("2", 12, "A/TRP13")):
+            own = [row for row in rows if row["tunnel"] == number]
+            self.assertAlmostEqual(float(own[0]["bottleneck_A"]), 1.337, delta=0.001)
+            narrowest = min(own, key=lambda row: float(row["radius_A"]))
+            self.assertIn(residue, narrowest["residues"].split())
+            self.assertAlmostEqual(float(own[-1]["y_A"]), end, delta=1)
+            self.assertEqual(float(own[0]["charge"]), 0)
+            self.assertGreater(float(own[0]["hydrophobicity"]), 1)
+            self.assertLess(float(own[0]["curvature"]), 1.1)
+        for threads in (1, 2):
+            self.check(0, *args, "-j", threads, "-o", f"{threads}.tunnels.csv")
+        self.assertEqual((self.folder / "1.tunnels.csv").read_bytes(), (self.folder / "2.tunnels.csv").read_bytes())
+
+    def test_what_is_wrong_is_said_in_a_line(self):
+        for status, place, text in ((2, "1,2", "expected X,Y,Z"), (2, "resid 999", "resid 999"), (1, "0,0,60", "reaches from outside"),
+                                    (1, "6,6,6", "a ball of 0.9 Å fits"), (2, "nan,0,0", "expected X,Y,Z")):
+            self.check(status, "two.xyzr" if status == 1 else GRAMICIDIN, "--tunnels-from", place, "-o", "bad.tunnels.csv",
+                       says=["--tunnels-from", text])
+            self.assertFalse((self.folder / "bad.tunnels.csv").exists())
+        self.check(2, "two.xyzr", "-o", "bad.tunnels.csv", says="--tunnels-from")
+        self.check(2, DATA / "1d3z.pdb.gz", "--frames", "all", "--tunnels-from", "resid 44", "-o", "bad.tunnels.csv", says="--model 2")
+
+
 if __name__ == "__main__":
     unittest.main()

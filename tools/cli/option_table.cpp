@@ -26,7 +26,7 @@ namespace molsurf::tool
 const std::vector<std::string>& areaTables()
 {
     static const std::vector<std::string> all = {"atoms",   "residues", "contacts", "interfaces",
-                                                 "pockets", "pore",     "forces"};
+                                                 "pockets", "pore",     "tunnels",  "forces"};
     return all;
 }
 
@@ -493,7 +493,7 @@ OptionGroup areaOptions()
                  0,
                  "LIST",
                  "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, "
-                 "pockets,\npore, forces",
+                 "pockets,\npore, tunnels, forces",
                  "",
                  wholes,
                  areaTables()};
@@ -528,12 +528,15 @@ OptionGroup pocketOptions()
 
 OptionGroup poreOptions()
 {
-    return {"Pores",
-            {setting("pore", wholes)},
-            {{"vdb_molsurf 1grm.pdb.gz --pore auto -o 1grm.pore.csv",
-              "radius and lining along the channel"},
-             {"vdb_molsurf 1grm.pdb.gz --pore auto --view x -o 1grm.png",
-              "a picture across the channel"}}};
+    return {
+        "Pores",
+        {setting("pore", wholes), setting("tunnels-from", wholes), setting("tunnel-probe", wholes)},
+        {{"vdb_molsurf 1grm.pdb.gz --pore auto -o 1grm.pore.csv",
+          "radius and lining along the channel"},
+         {"vdb_molsurf 1grm.pdb.gz --pore auto --view x -o 1grm.png",
+          "a picture across the channel"},
+         {"vdb_molsurf 1grm.pdb.gz --tunnels-from \"resid 1\" -o 1grm.tunnels.csv",
+          "the ways out of its middle"}}};
 }
 
 OptionGroup sceneOptions()

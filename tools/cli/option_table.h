@@ -79,7 +79,8 @@ std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given);
 /// "option.NAME.sha256".
 void addOptions(const Call& call, openvdb::MetaMap& map);
 
-/// The tables of areas: "atoms", "residues", "contacts", "interfaces", "pockets", "pore", "forces".
+/// The tables of areas: "atoms", "residues", "contacts", "interfaces", "pockets", "pore",
+/// "tunnels", "forces".
 const std::vector<std::string>& areaTables();
 
 /// @throws Error(ErrorKind::Usage)

@@ -47,47 +47,47 @@ std::vector<Pair> assemblyPairs()
                         return later || call.atoms.groupBy || call.verb == Convert;
                     }};
     };
-    return {
-        {"weld", Needs, {"by-symmetry"}},
-        {"weld", Excludes, {"crisp"}},
-        {"lod", Needs, {"instances", "by-symmetry"}},
-        {"walls", Excludes, {"by-symmetry", "instances", "memory", "lod"}},
-        {"lod", Excludes, {"voxel"}, ": the first of --lod is the voxel"},
-        {"instances",
-         Excludes,
-         {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
-          "color=radius", "color=potential", "color=pocket", "show=pockets", "pockets", "pore"}},
-        {"by-symmetry",
-         Excludes,
-         {"pockets", "color=pocket", "show=pockets", "pore", "frames", "trajectory", "memory",
-          "dry-run", "center", "color=potential"}},
-        {holds::Content(Grids | Volume),
-         Excludes,
-         {"by-symmetry"},
-         ": it makes no grid of the whole [hint: --memory 8G in its place makes it in bricks]"},
-        {"memory",
-         Excludes,
-         {"for"},
-         ": the density of a .vdb needs the whole at once [hint: --fields surface,Cd in its "
-         "place]",
-         [](const Call& call) { return !call.writes(Grids); }},
-        {"by-symmetry",
-         Excludes,
-         {{Areas, "contacts", ofResidues},
-          {Areas, "interfaces", ofResidues},
-          {"areas=contacts", ofResidues},
-          {"areas=interfaces", ofResidues},
-          {Areas, "forces", ofForces},
-          {"areas=forces", ofForces}},
-         " [hint: without --by-symmetry]"},
-        {"color=copy", Needs, {"assembly"}},
-        {"groups", Excludes, {"group-by"}},
-        coloured("color=copy", " [hint: --group-by copy --color group]"),
-        coloured("color=entity", " [hint: --group-by entity --color group]"),
-        coloured("color=class", " [hint: --group-by class --color group]"),
-        ofGroups("split"),
-        ofGroups("surface-of"),
-        ofGroups("color=group")};
+    return {{"weld", Needs, {"by-symmetry"}},
+            {"weld", Excludes, {"crisp"}},
+            {"lod", Needs, {"instances", "by-symmetry"}},
+            {"walls", Excludes, {"by-symmetry", "instances", "memory", "lod"}},
+            {"lod", Excludes, {"voxel"}, ": the first of --lod is the voxel"},
+            {"instances",
+             Excludes,
+             {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
+              "color=radius", "color=potential", "color=pocket", "show=pockets", "pockets", "pore",
+              "tunnels-from"}},
+            {"by-symmetry",
+             Excludes,
+             {"pockets", "color=pocket", "show=pockets", "pore", "tunnels-from", "frames",
+              "trajectory", "memory", "dry-run", "center", "color=potential"}},
+            {holds::Content(Grids | Volume),
+             Excludes,
+             {"by-symmetry"},
+             ": it makes no grid of the whole [hint: --memory 8G in its place makes it in bricks]"},
+            {"memory",
+             Excludes,
+             {"for"},
+             ": the density of a .vdb needs the whole at once [hint: --fields surface,Cd in its "
+             "place]",
+             [](const Call& call) { return !call.writes(Grids); }},
+            {"by-symmetry",
+             Excludes,
+             {{Areas, "contacts", ofResidues},
+              {Areas, "interfaces", ofResidues},
+              {"areas=contacts", ofResidues},
+              {"areas=interfaces", ofResidues},
+              {Areas, "forces", ofForces},
+              {"areas=forces", ofForces}},
+             " [hint: without --by-symmetry]"},
+            {"color=copy", Needs, {"assembly"}},
+            {"groups", Excludes, {"group-by"}},
+            coloured("color=copy", " [hint: --group-by copy --color group]"),
+            coloured("color=entity", " [hint: --group-by entity --color group]"),
+            coloured("color=class", " [hint: --group-by class --color group]"),
+            ofGroups("split"),
+            ofGroups("surface-of"),
+            ofGroups("color=group")};
 }
 
 std::vector<Pair> areaPairs()
@@ -139,12 +139,21 @@ std::vector<Pair> meshPairs()
 std::vector<Pair> pocketPairs()
 {
     std::vector<Pair> pairs;
-    for (const char* option : {"pocket-at", "probe-in", "probe-out", "pocket-cut", "pocket-neck"})
-        pairs.push_back(
-            {option,
-             IsFor,
-             {"pockets", "color=pocket", "show=pockets", {Areas, "pockets"}, "areas=pockets"},
-             "--pockets and .pockets.csv"});
+    const std::vector<Thing> pockets = {
+        "pockets", "color=pocket", "show=pockets", {Areas, "pockets"}, "areas=pockets"};
+    for (const char* option : {"pocket-at", "probe-in", "pocket-cut", "pocket-neck"})
+        pairs.push_back({option, IsFor, pockets, "--pockets and .pockets.csv"});
+    std::vector<Thing> both = pockets;
+    both.push_back("tunnels-from");
+    pairs.push_back({"probe-out", IsFor, both, "--pockets, .pockets.csv and --tunnels-from"});
+    pairs.push_back({"tunnel-probe", IsFor, {"tunnels-from"}});
+    const char* place = " [hint: --tunnels-from \"resid 57\", for example]";
+    pairs.push_back({{Areas, "tunnels"}, Needs, {"tunnels-from"}, place});
+    pairs.push_back({"areas=tunnels", Needs, {"tunnels-from"}, place});
+    pairs.push_back({"tunnels-from",
+                     Excludes,
+                     {"frames", "trajectory"},
+                     ": tunnels are those of one model [hint: --model 2]"});
     return pairs;
 }
 

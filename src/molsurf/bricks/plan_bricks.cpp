@@ -73,6 +73,8 @@ constexpr double bytesPerDrawnVoxel = 94.0, secondsPerDrawnVoxel = 0.5e-6; // ra
 // measured: build --pockets of 1CRN, 1D3Z, 4AT1, 6ZU5 on voxels of 0.25 to 1 Å, --probe-out 3 to
 // 50: 1.0 to 1.5 times the peak.
 constexpr double bytesOfPocketsPerBall = 3.9e3, secondsOfPocketsPerBall = 1e-4; // voxels of 1 Å
+// measured: --tunnels-from of 1ACJ and 4AT1, --tunnel-probe 0.3 to 1.4
+constexpr double secondsOfTunnelsPerBall = 1e-4;
 constexpr double morePerProbeOut = 0.12, morePerProbeOut2 = 4e-3; // of both, for each Å above 4
 // measured: -o FILE.dx of two molecules 1e6 Å apart on voxels of 3 Å; .mrc takes a fifth.
 constexpr double secondsPerMapPoint = 7e-8;
@@ -728,13 +730,15 @@ BrickPlan planWithoutGrid(const BallSet& atoms)
 PlannedBrick costOfPockets(const BallSet& atoms, const SurfaceOptions& options)
 {
     PlannedBrick cost;
-    if (!wantsPockets(options)) return cost;
     const double balls = double(atoms.balls.size()), h = options.voxel;
+    const double tunnels = atoms.tunnelsFrom ? secondsOfTunnelsPerBall * balls : 0.0;
+    cost.seconds = tunnels;
+    if (!wantsPockets(options)) return cost;
     const double wider = std::max(options.pocket.probeOut - 4.0, 0.0);
     const double wide = 1.0 + morePerProbeOut * wider + morePerProbeOut2 * wider * wider;
     cost.bytes =
         std::size_t(processBytes + bytesOfPocketsPerBall * wide * balls * std::pow(h, -2.1));
-    cost.seconds = secondsOfPocketsPerBall * wide * balls / h;
+    cost.seconds = tunnels + secondsOfPocketsPerBall * wide * balls / h;
     return cost;
 }
 

@@ -171,11 +171,11 @@ Json pocketsJson(const Report::Pockets& pockets)
             {"voxel", pockets.voxel},      {"list", std::move(list)}};
 }
 
-/// A pore without the others of its bundle.
-Json onePoreJson(const Report::Pore& pore)
+/// What is known of the stations of a way.
+Json stationsJson(const std::vector<Report::Pore::Station>& stations)
 {
     Json necks = Json::array(), distances = necks, radii = necks, centers = necks;
-    for (const Report::Pore::Station& s : pore.stations) {
+    for (const Report::Pore::Station& s : stations) {
         distances.push_back(s.distance);
         radii.push_back(s.radius);
         centers.push_back(s.place);
@@ -183,18 +183,25 @@ Json onePoreJson(const Report::Pore& pore)
             necks.push_back(
                 Json{{"center", s.place}, {"distance", s.distance}, {"radius", s.radius}});
     }
-    const std::optional<double> conductance = pore.conductance();
-    return {{"axis", pore.axis},
-            {"crossed", pore.crossed},
-            {"length", pore.length()},
-            {"radius", pore.narrowest()},
-            {"conductance", conductance ? Json(*conductance) : Json()},
-            {"resistivity", Report::Pore::bulkResistivity},
-            {"bottlenecks", std::move(necks)},
+    return {{"bottlenecks", std::move(necks)},
             {"profile",
              {{"distance", std::move(distances)},
               {"radius", std::move(radii)},
               {"center", std::move(centers)}}}};
+}
+
+/// A pore without the others of its bundle.
+Json onePoreJson(const Report::Pore& pore)
+{
+    const std::optional<double> conductance = pore.conductance();
+    Json out = {{"axis", pore.axis},
+                {"crossed", pore.crossed},
+                {"length", pore.length()},
+                {"radius", pore.narrowest()},
+                {"conductance", conductance ? Json(*conductance) : Json()},
+                {"resistivity", Report::Pore::bulkResistivity}};
+    out.update(stationsJson(pore.stations));
+    return out;
 }
 
 Json poreJson(const Report::Pore& pore)
@@ -206,6 +213,23 @@ Json poreJson(const Report::Pore& pore)
     out["bundle"] = std::move(bundle);
     out["others"] = std::move(others);
     return out;
+}
+
+Json tunnelsJson(const Report::Tunnels& tunnels)
+{
+    Json list = Json::array();
+    for (const Report::Tunnels::Tunnel& tunnel : tunnels.list) {
+        Json one = {{"radius", tunnel.narrowest().radius},
+                    {"center", tunnel.narrowest().place},
+                    {"length", tunnel.length()},
+                    {"curvature", tunnel.curvature()}};
+        one.update(stationsJson(tunnel.stations));
+        list.push_back(std::move(one));
+    }
+    return {{"start", {{"center", tunnels.start}, {"radius", tunnels.startRadius}}},
+            {"probe", tunnels.probe},
+            {"probe_out", tunnels.probeOut},
+            {"list", std::move(list)}};
 }
 
 Json partsJson(const std::vector<Report::Part>& parts)
@@ -319,6 +343,7 @@ std::string reportText(const Report& report)
         {"interfaces", interfacesJson(report.interfaces)},
         {"pockets", report.pockets ? pocketsJson(*report.pockets) : Json()},
         {"pore", report.pore ? poreJson(*report.pore) : Json()},
+        {"tunnels", report.tunnels ? tunnelsJson(*report.tunnels) : Json()},
         {"parts", partsJson(report.parts)},
         {"instances", instancesJson(report.instances)},
         {"symmetry", report.symmetry ? symmetryJson(*report.symmetry) : Json()},

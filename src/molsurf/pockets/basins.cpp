@@ -4,8 +4,12 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <queue>
+#include <tuple>
 #include <utility>
 
 namespace molsurf
@@ -36,11 +40,13 @@ class Parts
 public:
     explicit Parts(double share) : share_(float(share)) {}
 
-    std::int32_t add(float peak)
+    /// @param[in] isKnown  whether the places where it meets other known ones are given
+    std::int32_t add(float peak, bool isKnown = false)
     {
         const auto part = std::int32_t(parents_.size());
         parents_.push_back(part);
         peaks_.push_back(peak);
+        isKnown_.push_back(isKnown);
         return part;
     }
 
@@ -58,17 +64,26 @@ public:
     /// @return the root of the one that they become, or the first
     std::int32_t meet(std::int32_t a, std::int32_t b, float clearance)
     {
-        // Parts are made in the order of falling peaks: the later one has the lower peak.
-        if (clearance >= share_ * peaks_[std::size_t(std::max(a, b))]) return join(a, b);
+        const float lower = std::min(peaks_[std::size_t(a)], peaks_[std::size_t(b)]);
+        if (clearance >= share_ * lower) return join(a, b);
+        note(a, b, clearance);
+        return a;
+    }
+
+    /// Two roots touch and stay apart.
+    void note(std::int32_t a, std::int32_t b, float clearance)
+    {
         auto& neck = necks_[std::minmax(a, b)];
         neck = std::max(neck, clearance);
-        return a;
     }
 
     std::int32_t join(std::int32_t a, std::int32_t b)
     {
         const auto [first, last] = std::minmax(a, b);
         parents_[std::size_t(last)] = first;
+        auto& peak = peaks_[std::size_t(first)];
+        peak = std::max(peak, peaks_[std::size_t(last)]);
+        isKnown_[std::size_t(first)] |= isKnown_[std::size_t(last)];
         return first;
     }
 
@@ -87,11 +102,14 @@ public:
 
     std::size_t size() const { return parents_.size(); }
     float peak(std::int32_t part) const { return peaks_[std::size_t(part)]; }
+    bool splits() const { return share_ > 0.0f; }
+    bool isKnown(std::int32_t root) const { return isKnown_[std::size_t(root)] != 0; }
 
 private:
     float share_;
     std::vector<std::int32_t> parents_;
-    std::vector<float> peaks_;
+    std::vector<float> peaks_; // of roots the largest
+    std::vector<char> isKnown_;
     std::map<std::pair<std::int32_t, std::int32_t>, float> necks_;
 };
 
@@ -133,7 +151,8 @@ void joinSmall(const std::vector<std::size_t>& sizes, double leastVoxels, Parts&
 /// Gives the parts that voxels are in numbers, in the order of the parts, and lists their peaks and
 /// necks.
 /// @param[in,out] basins  of voxels their parts, then the numbers of these
-void number(Parts& parts, const std::vector<VoxelPlace>& order, Basins& basins)
+/// @return of each part its number, or -1: no voxel is in it
+std::vector<std::int32_t> number(Parts& parts, const std::vector<VoxelPlace>& order, Basins& basins)
 {
     const auto at = [&](VoxelPlace place) -> std::int32_t& {
         return basins.of.leaf(place / leafSize)[place % leafSize];
@@ -157,49 +176,99 @@ void number(Parts& parts, const std::vector<VoxelPlace>& order, Basins& basins)
             std::minmax(numbers[std::size_t(pair.first)], numbers[std::size_t(pair.second)]);
         if (a >= 0) basins.necks.push_back({{a, b}, clearance});
     }
+    return numbers;
 }
 
-/// The first of the widest voxels of each basin.
-std::vector<openvdb::Vec3d> peakPlaces(const VoidField& space, const Basins& basins)
+openvdb::Vec3d pointAt(const VoidField& space, VoxelPlace place)
 {
-    std::vector<openvdb::Vec3d> out(basins.count());
-    std::vector<char> isFound(basins.count(), 0);
-    for (std::size_t n = 0; n < space.table.size(); ++n)
-        space.table.active(n).forEach([&](int v) {
-            const auto b = std::size_t(basins.of.leaf(n)[v]);
-            if (isFound[b] || space.clearance.leaf(n)[v] < basins.peaks[b]) return;
-            isFound[b] = 1;
-            out[b] = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
-                     space.voxelSize;
+    const int v = int(place % leafSize);
+    return space.table.origin(place / leafSize).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
+           space.voxelSize;
+}
+
+float clearanceAt(const VoidField& space, VoxelPlace place)
+{
+    return space.clearance.leaf(place / leafSize)[place % leafSize];
+}
+
+/// The active voxel nearest to a place among the 8 about it, if there is one.
+std::optional<VoxelPlace> voxelAbout(const VoidField& space, const openvdb::Vec3d& x)
+{
+    const openvdb::Vec3d at = x / space.voxelSize;
+    const openvdb::Coord low = openvdb::Coord::floor(at);
+    double least = std::numeric_limits<double>::infinity();
+    std::optional<VoxelPlace> best;
+    for (int k = 0; k < 8; ++k) {
+        const openvdb::Coord voxel = low.offsetBy(k >> 2, k >> 1 & 1, k & 1);
+        const std::int32_t leaf = space.table.find(voxel);
+        const int place = (voxel[0] & 7) << 6 | (voxel[1] & 7) << 3 | (voxel[2] & 7);
+        const double square = (voxel.asVec3d() - at).lengthSqr();
+        if (leaf < 0 || square >= least || !(space.room(std::size_t(leaf), place) > 0.0f)) continue;
+        least = square;
+        best = VoxelPlace(std::size_t(leaf) * leafSize + std::size_t(place));
+    }
+    return best;
+}
+
+/// The voxels beside which none has more clearance, in the order of all.
+std::vector<VoxelPlace> maximaOf(const VoidField& space, const std::vector<VoxelPlace>& order)
+{
+    std::vector<VoxelPlace> out;
+    for (const VoxelPlace place : order) {
+        const float own = clearanceAt(space, place);
+        bool isHighest = true;
+        forEachJoined(space.table, place, [&](VoxelPlace other) {
+            if (!(space.room(other / leafSize, int(other % leafSize)) > 0.0f)) return;
+            const float there = clearanceAt(space, other);
+            if (there > own || (there == own && other < place)) isHighest = false;
         });
+        if (isHighest) out.push_back(place);
+    }
     return out;
 }
 
+/// Parts that begin at voxels, and flow from there to those of less clearance.
+struct Springs {
+    std::vector<std::pair<VoxelPlace, std::int32_t>> marks; ///< voxels, and the parts of these
+    std::vector<std::int32_t> tops; ///< of each maximum its part; -1, or none: one of its own
+};
+
+/// Gives each voxel a part: that of its mark, else that of the highest voxel beside it. Parts meet
+/// where they touch; where some are known two of these stay apart, and what is of none, where only
+/// the rim of a probe gets, joins one.
 /// @param[in] order  fallingVoxels()
-Basins splitInOrder(const VoidField& space, const std::vector<VoxelPlace>& order, double share,
-                    double leastVoxels)
+/// @return how many voxels each part has
+std::vector<std::size_t> flood(const VoidField& space, const std::vector<VoxelPlace>& order,
+                               const Springs& springs, Parts& parts, Basins& out)
 {
-    Basins out;
+    constexpr std::int32_t none = -1; // what is less is the mark of part -2 - it
     out.of = LeafArray<std::int32_t>(space.table.size());
-    for (std::size_t n = 0; n < space.table.size(); ++n) std::fill_n(out.of.leaf(n), leafSize, -1);
+    for (std::size_t n = 0; n < space.table.size(); ++n)
+        std::fill_n(out.of.leaf(n), leafSize, none);
     const auto at = [&](VoxelPlace place) -> std::int32_t& {
         return out.of.leaf(place / leafSize)[place % leafSize];
     };
-    const auto clearanceAt = [&](VoxelPlace place) {
-        return space.clearance.leaf(place / leafSize)[place % leafSize];
-    };
-    Parts parts(share);
-    std::vector<std::size_t> sizes;
+    for (const auto& [place, part] : springs.marks) {
+        const std::int32_t before = -2 - at(place);
+        if (before < 0 || parts.peak(part) > parts.peak(before)) at(place) = -2 - part;
+    }
+    std::vector<std::size_t> sizes(parts.size(), 0);
+    std::size_t maximum = 0;
     for (const VoxelPlace place : order) {
-        std::int32_t own = -1;
-        float highest = 0.0f;
+        std::int32_t highest = none;
+        float most = 0.0f;
         forEachJoined(space.table, place, [&](VoxelPlace other) {
-            if (at(other) < 0 || clearanceAt(other) <= highest) return;
-            highest = clearanceAt(other);
-            own = at(other);
+            if (at(other) < 0 || clearanceAt(space, other) <= most) return;
+            most = clearanceAt(space, other);
+            highest = at(other);
         });
-        if (own < 0) {
-            own = parts.add(clearanceAt(place));
+        std::int32_t own = at(place) == none ? highest : -2 - at(place);
+        if (highest == none) {
+            if (own == none && maximum < springs.tops.size()) own = springs.tops[maximum];
+            ++maximum;
+        }
+        if (own == none) {
+            own = parts.add(clearanceAt(space, place));
             sizes.push_back(0);
         }
         at(place) = own;
@@ -208,152 +277,190 @@ Basins splitInOrder(const VoidField& space, const std::vector<VoxelPlace>& order
         forEachJoined(space.table, place, [&](VoxelPlace other) {
             if (at(other) < 0) return;
             const std::int32_t met = parts.find(at(other));
-            if (met != root) root = parts.meet(root, met, clearanceAt(place));
+            if (met == root) return;
+            if (parts.isKnown(met) && parts.isKnown(root) && parts.splits())
+                parts.note(root, met, clearanceAt(space, place));
+            else
+                root = springs.tops.empty() ? parts.meet(root, met, clearanceAt(space, place))
+                                            : parts.join(root, met);
         });
     }
-    joinSmall(sizes, leastVoxels, parts);
-    number(parts, order, out);
-    return out;
+    return sizes;
 }
 
-/// The rooms of a graph below the cut and the basins of voxels that no such room is the top of, as
-/// parts in the order of falling peaks, and where they meet.
-struct RoomParts {
-    /// Where two parts meet.
-    struct Meeting {
-        float clearance;       ///< [Å]
-        std::int32_t parts[2]; ///< ascending
-    };
-    std::vector<float> peaks;      ///< of each part [Å]
-    std::vector<std::int32_t> of;  ///< of each basin its part
-    std::vector<Meeting> meetings; ///< the widest first
+/// The nodes and exits of a graph below the cut, where the clearance is largest, as parts: first
+/// all nodes, then the exits.
+class CutParts
+{
+public:
+    CutParts(const VoidGraph& graph, const CutGraph& cut) : graph_(graph), cut_(cut) {}
 
-    /// @param[in] basins  their peaks are the starts of the graph
-    RoomParts(const VoidField& space, const VoidGraph& graph, const Rooms& rooms,
-              const Basins& basins, const BelowCut& below)
+    std::int32_t ofExit(std::size_t exit) const { return std::int32_t(graph_.nodes.size() + exit); }
+
+    void addTo(Parts& parts) const
     {
-        const auto isBelow = [&](const openvdb::Vec3d& x, double d) {
-            return basinAbout(space, basins, x) >= 0 && below(x, d) > 0.0;
-        };
-        std::vector<std::pair<float, std::int32_t>> tops; // minus the peak; a room or -1 - a basin
-        std::vector<std::int32_t> partOf(rooms.nodes.size(), -1);
-        std::vector<char> isIn(rooms.nodes.size(), 0);
-        for (std::size_t r = 1; r < rooms.nodes.size(); ++r) {
-            const VoidGraph::Node& node = graph.nodes[std::size_t(rooms.nodes[r])];
-            isIn[r] = isBelow(node.place, node.clearance);
-            if (isIn[r]) tops.emplace_back(-float(node.clearance), std::int32_t(r));
-        }
-        // The room that the way up from a basin's peak leads to without leaving what is below the
-        // cut, or 0.
-        std::vector<std::int32_t> roomOf(basins.count(), 0);
-        for (std::size_t b = 0; b < basins.count(); ++b) {
-            std::int32_t n = graph.starts[b];
-            if (n == VoidGraph::none || !isIn[std::size_t(rooms.of[std::size_t(n)])]) continue;
-            bool stays = true;
-            while (stays && rooms.up[std::size_t(n)] != VoidGraph::none) {
-                const auto& ends = graph.edges[std::size_t(rooms.up[std::size_t(n)])].nodes;
-                n = ends[ends[0] == n ? 1 : 0];
-                const VoidGraph::Node& node = graph.nodes[std::size_t(n)];
-                stays = isBelow(node.place, node.clearance);
+        for (std::size_t n = 0; n < graph_.nodes.size(); ++n)
+            parts.add(cut_.isBelow[n] ? float(graph_.nodes[n].clearance) : 0.0f, true);
+        for (const CutGraph::Exit& exit : cut_.exits) parts.add(float(exit.end.clearance), true);
+    }
+
+    /// Joins them, the widest places where two meet first.
+    void join(const Clearance& clearance, const BelowCut& below, Parts& parts) const
+    {
+        std::priority_queue<Meeting> open = meetings();
+        while (!open.empty()) {
+            const Meeting next = open.top();
+            open.pop();
+            const std::int32_t a = parts.find(next.first), b = parts.find(next.last);
+            if (a == b) continue;
+            if (next.arc < 0) {
+                parts.meet(a, b, next.width);
+                continue;
             }
-            if (stays) roomOf[b] = rooms.of[std::size_t(n)];
+            // Its width is not known yet: no more than this.
+            const double width =
+                widthOf(cut_.arcs[std::size_t(next.arc)], cut_, graph_, clearance, below);
+            if (width >= graph_.floor)
+                open.push({std::min(float(width), next.width), -1, next.first, next.last});
         }
-        for (std::size_t b = 0; b < basins.count(); ++b)
-            if (roomOf[b] == 0) tops.emplace_back(-basins.peaks[b], -1 - std::int32_t(b));
-        std::sort(tops.begin(), tops.end());
-        of.assign(basins.count(), -1);
-        for (const auto& [peak, top] : tops) {
-            auto& part = top < 0 ? of[std::size_t(-1 - top)] : partOf[std::size_t(top)];
-            part = std::int32_t(peaks.size());
-            peaks.push_back(-peak);
+    }
+
+    /// Where parts begin.
+    /// @param[in] maxima  the starts of the graph
+    Springs springs(const VoidField& space, const Rooms& rooms) const
+    {
+        Springs out;
+        const auto mark = [&](const openvdb::Vec3d& x, std::int32_t part) {
+            if (const auto place = voxelAbout(space, x)) out.marks.emplace_back(*place, part);
+        };
+        for (std::size_t n = 1; n < graph_.nodes.size(); ++n)
+            if (cut_.isBelow[n] && graph_.nodes[n].balls[2] != VoidGraph::none)
+                mark(graph_.nodes[n].place, std::int32_t(n));
+        std::vector<std::int32_t> exitBy(graph_.edges.size(), -1);
+        for (std::size_t e = 0; e < cut_.exits.size(); ++e) {
+            const CutGraph::Exit& exit = cut_.exits[e];
+            if (isOfEdge(exit)) mark(exit.end.place, ofExit(e));
+            if (exit.edge != VoidGraph::none) exitBy[std::size_t(exit.edge)] = std::int32_t(e);
         }
-        for (std::size_t b = 0; b < basins.count(); ++b)
-            if (const std::int32_t room = roomOf[b]) of[b] = partOf[std::size_t(room)];
-        for (const std::int32_t e : rooms.passages) {
-            const VoidGraph::Edge& edge = graph.edges[std::size_t(e)];
-            const std::int32_t a = partOf[std::size_t(rooms.of[std::size_t(edge.nodes[0])])],
-                               b = partOf[std::size_t(rooms.of[std::size_t(edge.nodes[1])])];
-            if (a >= 0 && b >= 0 && isBelow(edge.narrowest, edge.clearance))
-                add(float(edge.clearance), a, b);
-        }
-        // What the graph does not join the probe does not pass, if it leads from room to room.
-        for (const Neck& neck : basins.necks) {
-            const std::int32_t a = of[std::size_t(neck.basins[0])],
-                               b = of[std::size_t(neck.basins[1])];
-            const bool joinsRooms = roomOf[std::size_t(neck.basins[0])] != 0 &&
-                                    roomOf[std::size_t(neck.basins[1])] != 0;
-            if (a != b)
-                add(joinsRooms ? std::min(neck.clearance, float(graph.floor)) : neck.clearance, a,
-                    b);
-        }
-        std::sort(meetings.begin(), meetings.end(), [](const Meeting& a, const Meeting& b) {
-            if (a.clearance != b.clearance) return a.clearance > b.clearance;
-            return std::pair(a.parts[0], a.parts[1]) < std::pair(b.parts[0], b.parts[1]);
-        });
+        for (const std::int32_t start : graph_.starts)
+            out.tops.push_back(topAbove(start, rooms, exitBy, 2.0 * space.voxelSize));
+        return out;
     }
 
 private:
-    void add(float clearance, std::int32_t a, std::int32_t b)
+    /// Where two parts meet.
+    struct Meeting {
+        float width; ///< [Å]
+        std::int32_t arc;
+        std::int32_t first, last;
+        bool operator<(const Meeting& other) const
+        {
+            if (width != other.width) return width < other.width;
+            return std::tuple(arc, first, last) > std::tuple(other.arc, other.first, other.last);
+        }
+    };
+
+    std::priority_queue<Meeting> meetings() const
     {
-        meetings.push_back({clearance, {std::min(a, b), std::max(a, b)}});
+        std::priority_queue<Meeting> out;
+        for (const VoidGraph::Edge& edge : graph_.edges) {
+            const auto& [a, b] = edge.nodes;
+            if (a != b && cut_.isBelow[std::size_t(a)] && cut_.isBelow[std::size_t(b)])
+                out.push({float(edge.clearance), -1, a, b});
+        }
+        const std::vector<CutGraph::Exit>& exits = cut_.exits;
+        for (std::size_t e = 0; e < exits.size(); ++e)
+            if (exits[e].node != VoidGraph::none)
+                out.push({float(exits[e].least), -1, exits[e].node, ofExit(e)});
+        for (std::size_t k = 0; k < cut_.arcs.size(); ++k) {
+            const auto a = std::size_t(cut_.arcs[k].exits[0]),
+                       b = std::size_t(cut_.arcs[k].exits[1]);
+            out.push({float(std::min(exits[a].end.clearance, exits[b].end.clearance)),
+                      std::int32_t(k), ofExit(a), ofExit(b)});
+        }
+        return out;
     }
+
+    /// Whether an exit is of an edge, not of a way up to one.
+    static bool isOfEdge(const CutGraph::Exit& exit) { return exit.balls[2] != VoidGraph::none; }
+
+    /// The room or the exit that the way up from a node leads to, or -1.
+    std::int32_t topAbove(std::int32_t n, const Rooms& rooms,
+                          const std::vector<std::int32_t>& exitBy, double reach) const
+    {
+        if (n == VoidGraph::none || !cut_.isBelow[std::size_t(n)]) return -1;
+        for (std::int32_t e; (e = rooms.up[std::size_t(n)]) != VoidGraph::none;) {
+            const auto& ends = graph_.edges[std::size_t(e)].nodes;
+            n = ends[ends[0] == n ? 1 : 0];
+            if (cut_.isBelow[std::size_t(n)]) continue;
+            const std::int32_t exit = exitBy[std::size_t(e)];
+            return exit < 0 ? -1 : nearestExit(std::size_t(exit), reach);
+        }
+        return n;
+    }
+
+    /// The part of an exit, or, if it is of a way up to an edge, of the nearest one of an edge, or
+    /// -1.
+    std::int32_t nearestExit(std::size_t exit, double reach) const
+    {
+        const std::vector<CutGraph::Exit>& exits = cut_.exits;
+        if (isOfEdge(exits[exit])) return ofExit(exit);
+        std::int32_t best = -1;
+        double least = reach;
+        for (std::size_t e = 0; e < exits.size(); ++e) {
+            const double distance = (exits[e].end.place - exits[exit].end.place).length();
+            if (!isOfEdge(exits[e]) || distance >= least) continue;
+            least = distance;
+            best = ofExit(e);
+        }
+        return best;
+    }
+
+    const VoidGraph& graph_;
+    const CutGraph& cut_;
 };
+
+/// The largest clearance of the voxels of each basin.
+void takePeaks(const VoidField& space, const std::vector<VoxelPlace>& order, Basins& basins)
+{
+    for (auto place = order.rbegin(); place != order.rend(); ++place) // the widest is the last
+        basins.peaks[std::size_t(basins.of.leaf(*place / leafSize)[*place % leafSize])] =
+            clearanceAt(space, *place);
+}
 
 } // namespace
 
 Basins splitAtNecks(const VoidField& space, double share, double leastVoxels)
 {
-    return splitInOrder(space, fallingVoxels(space), share, leastVoxels);
-}
-
-std::int32_t basinAbout(const VoidField& space, const Basins& basins, const openvdb::Vec3d& x)
-{
-    const openvdb::Vec3d at = x / space.voxelSize;
-    const openvdb::Coord low = openvdb::Coord::floor(at);
-    double least = std::numeric_limits<double>::infinity();
-    std::int32_t best = -1;
-    for (int k = 0; k < 8; ++k) {
-        const openvdb::Coord voxel = low.offsetBy(k >> 2, k >> 1 & 1, k & 1);
-        const std::int32_t leaf = space.table.find(voxel);
-        if (leaf < 0) continue;
-        const std::int32_t basin = basins.of.leaf(
-            std::size_t(leaf))[(voxel[0] & 7) << 6 | (voxel[1] & 7) << 3 | (voxel[2] & 7)];
-        const double square = (voxel.asVec3d() - at).lengthSqr();
-        if (basin < 0 || square >= least) continue;
-        least = square;
-        best = basin;
-    }
-    return best;
+    const std::vector<VoxelPlace> order = fallingVoxels(space);
+    Parts parts(share);
+    Basins out;
+    const std::vector<std::size_t> sizes = flood(space, order, {}, parts, out);
+    joinSmall(sizes, leastVoxels, parts);
+    number(parts, order, out);
+    return out;
 }
 
 RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const VoidField& space,
                         const SplitRule& rule, const BelowCut& below, const Progress& progress)
 {
     const std::vector<VoxelPlace> order = fallingVoxels(space);
-    RoomBasins out{splitInOrder(space, order, 1.0, 0.0), {}}; // every maximum of the voxels
-    out.graph = voidGraph(balls, probe, peakPlaces(space, out.basins), progress);
-    const Rooms rooms = roomsOf(out.graph);
-    const RoomParts found(space, out.graph, rooms, out.basins, below);
+    std::vector<openvdb::Vec3d> maxima;
+    for (const VoxelPlace place : maximaOf(space, order)) maxima.push_back(pointAt(space, place));
+    RoomBasins out{{}, voidGraph(balls, probe, maxima, progress), {}, {}};
+    out.cut = cutGraph(out.graph, space, below, progress);
+    const CutParts known(out.graph, out.cut);
     Parts parts(rule.share);
-    for (const float peak : found.peaks) parts.add(peak);
-    for (const RoomParts::Meeting& meeting : found.meetings) {
-        const std::int32_t a = parts.find(meeting.parts[0]), b = parts.find(meeting.parts[1]);
-        if (a != b) parts.meet(a, b, meeting.clearance);
-    }
-    std::vector<std::size_t> sizes(parts.size(), 0);
-    for (const VoxelPlace place : order) {
-        std::int32_t& basin = out.basins.of.leaf(place / leafSize)[place % leafSize];
-        basin = found.of[std::size_t(basin)];
-        ++sizes[std::size_t(basin)];
-    }
+    known.addTo(parts);
+    known.join(Clearance(balls), below, parts);
+    const std::vector<std::size_t> sizes =
+        flood(space, order, known.springs(space, roomsOf(out.graph)), parts, out.basins);
     joinSmall(sizes, rule.leastVoxels, parts);
-    out.basins.peaks.clear();
-    out.basins.necks.clear();
-    number(parts, order, out.basins);
-    for (auto place = order.rbegin(); place != order.rend();
-         ++place) // the widest voxel is the last
-        out.basins.peaks[std::size_t(out.basins.of.leaf(*place / leafSize)[*place % leafSize])] =
-            space.clearance.leaf(*place / leafSize)[*place % leafSize];
+    out.ofNodes = number(parts, order, out.basins);
+    out.ofNodes.resize(out.graph.nodes.size());
+    for (std::size_t n = 0; n < out.ofNodes.size(); ++n)
+        if (!out.cut.isBelow[n]) out.ofNodes[n] = -1;
+    takePeaks(space, order, out.basins);
     return out;
 }
 

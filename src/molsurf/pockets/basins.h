@@ -5,6 +5,7 @@
 /// Parts of a space, split at its necks.
 
 #include "molsurf/ball.h"
+#include "molsurf/pockets/cut_graph.h"
 #include "molsurf/pockets/void_field.h"
 #include "molsurf/pockets/void_graph.h"
 #include "molsurf/progress.h"
@@ -12,7 +13,6 @@
 #include <openvdb/Types.h>
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace molsurf
@@ -69,27 +69,23 @@ struct Basins {
 /// @param[in] leastVoxels  a basin of fewer joins the neighbour with the widest neck
 Basins splitAtNecks(const VoidField& space, double share, double leastVoxels);
 
-/// The basin of the voxel nearest to a place among the 8 about it, or -1.
-std::int32_t basinAbout(const VoidField& space, const Basins& basins, const openvdb::Vec3d& x);
-
 /// Where a space is split, as by splitAtNecks().
 struct SplitRule {
     double share, leastVoxels;
 };
 
-/// How far a place is below the cut, given its clearance [Å].
-using BelowCut = std::function<double(const openvdb::Vec3d&, double)>;
-
 /// A split space, and the graph that decided it.
 struct RoomBasins {
     Basins basins;
-    VoidGraph graph; ///< of what the small probe passes
+    VoidGraph graph;                   ///< of what the small probe passes
+    CutGraph cut;                      ///< of that what is below the cut
+    std::vector<std::int32_t> ofNodes; ///< of each node its basin, or -1
 };
 
-/// Splits a space as splitAtNecks() does, but by the rooms and necks of the graph of the void
-/// below the cut, which do not depend on voxels: these only follow the clearance up to a room.
-/// Where it leads above the cut, or the probe's centre does not get, maxima and necks of voxels
-/// count.
+/// Splits a space as splitAtNecks() does, but by the nodes and exits of the graph of the void below
+/// the cut and what passes between them, which do not depend on voxels: labels of these flow from
+/// the nodes and exits down. Where the probe does not pass, parts stay apart. Only maxima of voxels
+/// that lead to no node and no exit count as they are.
 /// @param[in] probe  the small one [Å]
 RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const VoidField& space,
                         const SplitRule& rule, const BelowCut& below, const Progress& progress);

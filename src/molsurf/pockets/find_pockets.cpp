@@ -337,7 +337,9 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
     const double voxelVolume = voxelSize * voxelSize * voxelSize;
     const double nearCut = options.probeOut + options.cut + 1.0; // a guess, as pocketDepth [Å]
     const BelowCut below = [&](const openvdb::Vec3d& x, double room) {
-        return space.outer->at(x, room >= options.probeOut, nearCut).value - options.cut;
+        OuterDepth::Depth depth = space.outer->at(x, room >= options.probeOut, nearCut);
+        depth.value -= options.cut;
+        return depth;
     };
     const RoomBasins split = splitAtRooms(
         balls, options.probeIn, space, {options.neck, leastPocket / voxelVolume}, below, progress);
@@ -350,9 +352,10 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
         liningsOf(balls, measures, 2.0 * options.probeIn + voxelSize, progress);
     const BallIndex index(balls, {1.0, options.probeIn, 1.0});
     const Clearance clearance(balls);
-    const auto isWithin = [&](const openvdb::Vec3d& x) { return below(x, clearance.at(x)) >= 0.0; };
-    const std::vector<std::vector<MouthWay>> ways =
-        mouthWays(space, split, measures, below, progress);
+    const auto isWithin = [&](const openvdb::Vec3d& x) {
+        return below(x, clearance.at(x)).value >= 0.0;
+    };
+    const std::vector<std::vector<MouthWay>> ways = mouthWays(space, split, measures);
     std::vector<char> hasNeck(basins.count(), 0);
     for (const Neck& neck : basins.necks)
         for (const std::int32_t basin : neck.basins) hasNeck[std::size_t(basin)] = 1;

@@ -28,17 +28,6 @@ using Pore = Report::Pore;
 /// `reach` of it, which is searched exactly.
 constexpr double sectionSpacing = 0.25, reach = 0.7072 * sectionSpacing;
 
-/// A bottleneck is narrower than the way on both sides of it by this at least [Å].
-constexpr double leastNeck = 0.1;
-
-/// Balls line a pore within this [Å].
-constexpr double liningReach = 1.0;
-
-std::string placeText(const Vec3d& x)
-{
-    return formatted("(%.2f, %.2f, %.2f)", x[0], x[1], x[2]);
-}
-
 /// The points of the way with what decides its sections.
 struct Way {
     std::vector<Vec3d> places, tangents;
@@ -336,50 +325,9 @@ private:
     std::map<Point, double> rooms_;
 };
 
-Pore::Station stationOf(const FittedBall& ball, const Vec3d& normal)
-{
-    Pore::Station out;
-    for (std::size_t i = 0; i < 3; ++i) {
-        out.place[i] = ball.place[int(i)];
-        out.normal[i] = normal[int(i)];
-    }
-    out.radius = ball.radius;
-    return out;
-}
-
-Vec3d placeOf(const Pore::Station& station)
-{
-    return {station.place[0], station.place[1], station.place[2]};
-}
-
 Vec3d normalOf(const Pore::Station& station)
 {
     return {station.normal[0], station.normal[1], station.normal[2]};
-}
-
-/// The stations that are narrower than the way on both sides of them, by leastNeck at least, and
-/// the narrowest of all.
-std::vector<std::size_t> necksOf(const std::vector<Pore::Station>& stations)
-{
-    std::vector<std::size_t> out;
-    const std::size_t n = stations.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        const double r = stations[i].radius;
-        const auto rises = [&](int step) {
-            for (std::size_t k = i + std::size_t(step); k < n; k += std::size_t(step)) {
-                if (stations[k].radius >= r + leastNeck) return true;
-                if (stations[k].radius < r || (step < 0 && stations[k].radius == r)) return false;
-            }
-            return false;
-        };
-        if (rises(1) && rises(-1)) out.push_back(i);
-    }
-    const auto least =
-        std::min_element(stations.begin(), stations.end(),
-                         [](const auto& a, const auto& b) { return a.radius < b.radius; });
-    const std::size_t narrowest = std::size_t(least - stations.begin());
-    if (std::count(out.begin(), out.end(), narrowest) == 0) out.push_back(narrowest);
-    return out;
 }
 
 /// Adds the exact balls of bottlenecks where they lie between stations.
@@ -534,8 +482,7 @@ Pore poreOf(const Clearance& clearance, const VoidWay& way, const Ends& ends,
                     (placeOf(station) - placeOf(last)).dot(normalOf(station) + normalOf(last))) *
                     0.5;
         }
-        for (const std::int32_t ball : clearance.nearest(placeOf(station), liningReach))
-            station.lining.push_back(std::size_t(ball));
+        addLining(clearance, station);
     }
     return out;
 }
@@ -555,6 +502,57 @@ double crossedBy(const std::vector<Ball>& balls, const Pore& pore)
 }
 
 } // namespace
+
+Pore::Station stationOf(const FittedBall& ball, const Vec3d& normal)
+{
+    Pore::Station out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        out.place[i] = ball.place[int(i)];
+        out.normal[i] = normal[int(i)];
+    }
+    out.radius = ball.radius;
+    return out;
+}
+
+Vec3d placeOf(const Pore::Station& station)
+{
+    return {station.place[0], station.place[1], station.place[2]};
+}
+
+std::string placeText(const Vec3d& x)
+{
+    return formatted("(%.2f, %.2f, %.2f)", x[0], x[1], x[2]);
+}
+
+std::vector<std::size_t> necksOf(const std::vector<Pore::Station>& stations)
+{
+    constexpr double leastNeck = 0.1; // [Å]
+    std::vector<std::size_t> out;
+    const std::size_t n = stations.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const double r = stations[i].radius;
+        const auto rises = [&](int step) {
+            for (std::size_t k = i + std::size_t(step); k < n; k += std::size_t(step)) {
+                if (stations[k].radius >= r + leastNeck) return true;
+                if (stations[k].radius < r || (step < 0 && stations[k].radius == r)) return false;
+            }
+            return false;
+        };
+        if (rises(1) && rises(-1)) out.push_back(i);
+    }
+    const auto least =
+        std::min_element(stations.begin(), stations.end(),
+                         [](const auto& a, const auto& b) { return a.radius < b.radius; });
+    const std::size_t narrowest = std::size_t(least - stations.begin());
+    if (std::count(out.begin(), out.end(), narrowest) == 0) out.push_back(narrowest);
+    return out;
+}
+
+void addLining(const Clearance& clearance, Pore::Station& station)
+{
+    for (const std::int32_t ball : clearance.nearest(placeOf(station), liningReach))
+        station.lining.push_back(std::size_t(ball));
+}
 
 Pore findPore(const std::vector<Ball>& balls, const BallSet::PoreWay& asked,
               const Progress& progress)

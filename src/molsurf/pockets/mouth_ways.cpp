@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pockets/mouth_ways.h"
 
-#include "molsurf/core/parallel.h"
 #include "molsurf/pockets/void_graph.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <queue>
@@ -20,12 +18,7 @@ namespace
 using openvdb::Vec3d;
 
 /// A way out of a basin: from a node of it to where an edge comes to the cut.
-struct Exit {
-    std::int32_t node;
-    double least;    ///< clearance on the way there [Å]
-    Vec3d narrowest; ///< the place of that [Å]
-    VoidPoint end;
-};
+using Exit = CutGraph::Exit;
 
 /// The part of a graph in a basin.
 struct BasinPart {
@@ -34,65 +27,22 @@ struct BasinPart {
     std::vector<Exit> exits;
 };
 
-/// Where a way along an edge comes to the cut, by halving; `least` and `narrowest` of what is
-/// before that.
-Exit exitAlong(const VoidGraph& graph, const VoidGraph::Edge& edge, std::int32_t node,
-               const BelowCut& below)
-{
-    constexpr double step = 0.3; // [Å]
-    Exit out{node, std::numeric_limits<double>::infinity(), Vec3d(0.0), {Vec3d(0.0), 0.0}};
-    const auto note = [&](const VoidPoint& p) {
-        out.end = p;
-        if (p.clearance >= out.least) return;
-        out.least = p.clearance;
-        out.narrowest = p.place;
-    };
-    const auto isIn = [&](const VoidPoint& p) { return below(p.place, p.clearance) > 0.0; };
-    std::vector<VoidPoint> points = graph.pointsFrom(edge, node, step);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (i == 0 || isIn(points[i])) {
-            note(points[i]);
-            continue;
-        }
-        VoidPoint in = points[i - 1], beyond = points[i];
-        for (int k = 0; k < 10; ++k) { // to 0.3 mÅ
-            const VoidPoint middle{0.5 * (in.place + beyond.place),
-                                   0.5 * (in.clearance + beyond.clearance)};
-            (isIn(middle) ? in : beyond) = middle;
-        }
-        note(in);
-        break;
-    }
-    return out;
-}
-
 /// The parts of a graph in each basin.
-std::vector<BasinPart> partsOf(const VoidGraph& graph, const VoidField& space, const Basins& basins,
-                               const BelowCut& below, const Progress& progress)
+std::vector<BasinPart> partsOf(const RoomBasins& split)
 {
-    std::vector<std::int32_t> basinOf(graph.nodes.size(), -1);
-    constexpr std::size_t chunk = 256;
-    parallelFor((graph.nodes.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        for (std::size_t n = std::max<std::size_t>(c * chunk, 1);
-             n < std::min(graph.nodes.size(), (c + 1) * chunk); ++n) {
-            const VoidGraph::Node& node = graph.nodes[n];
-            const std::int32_t basin = basinAbout(space, basins, node.place);
-            if (basin >= 0 && below(node.place, node.clearance) > 0.0) basinOf[n] = basin;
-        }
-    });
-    std::vector<BasinPart> out(basins.count());
-    for (std::size_t n = 0; n < basinOf.size(); ++n)
-        if (basinOf[n] >= 0) out[std::size_t(basinOf[n])].nodes.push_back(std::int32_t(n));
-    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-        const VoidGraph::Edge& edge = graph.edges[e];
-        const std::int32_t a = basinOf[std::size_t(edge.nodes[0])],
-                           b = basinOf[std::size_t(edge.nodes[1])];
-        if (a >= 0 && a == b) out[std::size_t(a)].edges.push_back(std::int32_t(e));
-        if ((a < 0) == (b < 0)) continue;
-        const std::size_t end = a >= 0 ? 0 : 1;
-        out[std::size_t(std::max(a, b))].exits.push_back(
-            exitAlong(graph, edge, edge.nodes[end], below));
+    std::vector<BasinPart> out(split.basins.count());
+    const auto basinOf = [&](std::int32_t n) { return split.ofNodes[std::size_t(n)]; };
+    for (std::size_t n = 0; n < split.ofNodes.size(); ++n)
+        if (split.ofNodes[n] >= 0)
+            out[std::size_t(split.ofNodes[n])].nodes.push_back(std::int32_t(n));
+    for (std::size_t e = 0; e < split.graph.edges.size(); ++e) {
+        const auto& [a, b] = split.graph.edges[e].nodes;
+        if (basinOf(a) >= 0 && basinOf(a) == basinOf(b))
+            out[std::size_t(basinOf(a))].edges.push_back(std::int32_t(e));
     }
+    for (const Exit& exit : split.cut.exits)
+        if (exit.node != VoidGraph::none && basinOf(exit.node) >= 0)
+            out[std::size_t(basinOf(exit.node))].exits.push_back(exit);
     return out;
 }
 
@@ -196,11 +146,11 @@ std::size_t mouthAt(const VoidField& space, const std::vector<BasinMeasure::Mout
 } // namespace
 
 std::vector<std::vector<MouthWay>> mouthWays(const VoidField& space, const RoomBasins& split,
-                                             const std::vector<BasinMeasure>& measures,
-                                             const BelowCut& below, const Progress& progress)
+                                             const std::vector<BasinMeasure>& measures)
 {
-    const auto& [basins, graph] = split;
-    const std::vector<BasinPart> parts = partsOf(graph, space, basins, below, progress);
+    const Basins& basins = split.basins;
+    const VoidGraph& graph = split.graph;
+    const std::vector<BasinPart> parts = partsOf(split);
     std::vector<std::vector<MouthWay>> out(basins.count());
     for (std::size_t b = 0; b < basins.count(); ++b) {
         const auto& mouths = measures[b].mouths;

@@ -25,9 +25,7 @@ struct MouthWay {
 /// Finds, of each mouth of each basin, the widest way to it from the widest place of the basin,
 /// along the edges of the graph of the void (VoidGraph): voxels only name the basin of a node and
 /// the mouth of a place where an edge leaves the basin.
-/// @param[in] below  how far a place is below the cut
 std::vector<std::vector<MouthWay>> mouthWays(const VoidField& space, const RoomBasins& split,
-                                             const std::vector<BasinMeasure>& measures,
-                                             const BelowCut& below, const Progress& progress);
+                                             const std::vector<BasinMeasure>& measures);
 
 } // namespace molsurf

@@ -2,13 +2,13 @@
 #include "molsurf/pockets/pore_ways.h"
 
 #include "molsurf/core/perpendicular.h"
+#include "molsurf/pockets/void_paths.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <queue>
 #include <utility>
 
 namespace molsurf
@@ -18,9 +18,6 @@ namespace
 {
 
 using openvdb::Vec3d;
-
-/// Points of ways are no farther apart [Å].
-constexpr double wayStep = 0.25;
 
 /// What a ball on the way out comes to: bits.
 enum Reached : std::uint8_t { Nothing = 0, First = 1, Second = 2, Both = 3, Beside = 4 };
@@ -101,18 +98,9 @@ class WaySearch
 public:
     WaySearch(const VoidGraph& graph, const Rooms& rooms, Ending ending)
         : graph_(graph), rooms_(rooms), ending_(std::move(ending)), parent_(rooms.nodes.size()),
-          flags_(rooms.nodes.size(), Nothing), reached_(graph.nodes.size(), unknown),
-          weights_(graph.edges.size(), -1.0), begins_(graph.nodes.size() + 1, 0)
+          flags_(rooms.nodes.size(), Nothing), reached_(graph.nodes.size(), unknown), paths_(graph)
     {
         std::iota(parent_.begin(), parent_.end(), 0);
-        for (const VoidGraph::Edge& edge : graph.edges)
-            for (const std::int32_t n : edge.nodes) ++begins_[std::size_t(n) + 1];
-        std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
-        edges_.resize(begins_.back());
-        std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
-        for (std::size_t e = 0; e < graph.edges.size(); ++e)
-            for (const std::int32_t n : graph.edges[e].nodes)
-                edges_[next[std::size_t(n)]++] = std::int32_t(e);
     }
 
     /// Makes a node in a room an ending.
@@ -241,25 +229,6 @@ private:
         return out;
     }
 
-    /// The integral of ds / d^2 over points, with d at least 0.1 Å: by the trapezoidal rule [1/Å].
-    static double integralOf(const std::vector<VoidPoint>& points)
-    {
-        const auto weight = [](double d) { return 1.0 / (std::max(d, 0.1) * std::max(d, 0.1)); };
-        double sum = 0.0;
-        for (std::size_t i = 1; i < points.size(); ++i)
-            sum += 0.5 * (weight(points[i].clearance) + weight(points[i - 1].clearance)) *
-                   (points[i].place - points[i - 1].place).length();
-        return sum;
-    }
-
-    double weightOf(std::int32_t e)
-    {
-        double& weight = weights_[std::size_t(e)];
-        if (weight < 0.0)
-            weight = integralOf(graph_.pointsOf(graph_.edges[std::size_t(e)], wayStep));
-        return weight;
-    }
-
     /// A way over a neck between the outside and itself.
     VoidWay wayOver(std::int32_t e, std::size_t first) const
     {
@@ -270,13 +239,6 @@ private:
         const VoidGraph::Edge& edge = graph_.edges[std::size_t(e)];
         return {std::move(points), edge.clearance, edge.narrowest, 0.0};
     }
-
-    /// What Dijkstra's search found of a node.
-    struct Found {
-        double value = std::numeric_limits<double>::infinity();
-        std::int32_t edge = VoidGraph::none; ///< by which it came, or
-        std::int32_t port = VoidGraph::none; ///< by which it began
-    };
 
     std::size_t innerEnd(const Port& port) const { return 1 - port.end; }
     std::int32_t innerNode(const Port& port) const
@@ -289,46 +251,27 @@ private:
     }
     double valueOf(const Port& port)
     {
-        return weightOf(port.edge) + integralOf(wayOut(port.edge, port.end));
+        return paths_.weightOf(port.edge) + integralOf(wayOut(port.edge, port.end));
     }
 
     /// The way with the least integral through rooms that are joined by now.
     VoidWay wayIn(std::int32_t root, double least)
     {
-        std::vector<Found> found(graph_.nodes.size());
-        using Entry = std::pair<double, std::int32_t>; // the lower node of equals first
-        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-        const auto begin = [&](std::int32_t n, double value, std::int32_t port) {
-            if (value >= found[std::size_t(n)].value) return;
-            found[std::size_t(n)] = {value, VoidGraph::none, port};
-            queue.emplace(value, n);
-        };
+        std::vector<VoidPaths::Begin> begins;
         if (inner_[0] != VoidGraph::none)
-            begin(inner_[0], 0.0, VoidGraph::none);
+            begins.push_back({inner_[0], 0.0, VoidGraph::none});
         else
             for (std::size_t p = 0; p < ports_.size(); ++p)
                 if (isOf(ports_[p], root, First))
-                    begin(innerNode(ports_[p]), valueOf(ports_[p]), std::int32_t(p));
-        while (!queue.empty()) {
-            const auto [value, n] = queue.top();
-            queue.pop();
-            if (value > found[std::size_t(n)].value) continue;
-            for (std::size_t i = begins_[std::size_t(n)]; i < begins_[std::size_t(n) + 1]; ++i) {
-                const std::int32_t e = edges_[i];
-                const VoidGraph::Edge& edge = graph_.edges[std::size_t(e)];
-                const std::int32_t to = edge.nodes[edge.nodes[0] == n ? 1 : 0];
-                if (edge.clearance < least || roomOf(to) == 0 || find(roomOf(to)) != root) continue;
-                const double there = value + weightOf(e);
-                if (there >= found[std::size_t(to)].value) continue;
-                found[std::size_t(to)] = {there, e, VoidGraph::none};
-                queue.emplace(there, to);
-            }
-        }
-        return trace(root, found);
+                    begins.push_back({innerNode(ports_[p]), valueOf(ports_[p]), std::int32_t(p)});
+        return trace(root, paths_.search(begins, [&](std::int32_t e, std::int32_t to) {
+            return graph_.edges[std::size_t(e)].clearance >= least && roomOf(to) != 0 &&
+                   find(roomOf(to)) == root;
+        }));
     }
 
     /// The way that a search found, to the best of the second endings.
-    VoidWay trace(std::int32_t root, const std::vector<Found>& found)
+    VoidWay trace(std::int32_t root, const std::vector<VoidPaths::Found>& found)
     {
         constexpr double infinitely = std::numeric_limits<double>::infinity();
         VoidWay way{{}, infinitely, Vec3d(0.0), 0.0};
@@ -345,23 +288,17 @@ private:
                 at = innerNode(port);
             }
         if (!(best < infinitely)) return way;
-        std::vector<std::int32_t> edges;
-        std::int32_t n = at;
-        while (found[std::size_t(n)].edge != VoidGraph::none) {
-            edges.push_back(found[std::size_t(n)].edge);
-            const auto& ends = graph_.edges[std::size_t(edges.back())].nodes;
-            n = ends[ends[0] == n ? 1 : 0];
-        }
-        const std::int32_t begin = found[std::size_t(n)].port;
-        const Port* first = begin == VoidGraph::none ? nullptr : &ports_[std::size_t(begin)];
+        const VoidPaths::Path path = paths_.pathTo(at, found);
+        const Port* first =
+            path.begin == VoidGraph::none ? nullptr : &ports_[std::size_t(path.begin)];
         if (first) addPort(*first, true, way);
-        for (auto e = edges.rbegin(); e != edges.rend(); ++e) {
-            addEdge(*e, n, way);
-            const auto& ends = graph_.edges[std::size_t(*e)].nodes;
-            n = ends[ends[0] == n ? 1 : 0];
+        std::int32_t n = path.node;
+        for (const std::int32_t e : path.edges) {
+            addEdge(e, n, way);
+            n = paths_.beyond(e, n);
         }
         if (last) addPort(*last, false, way);
-        if (edges.empty() && !first && !last) {
+        if (path.edges.empty() && !first && !last) {
             const VoidGraph::Node& node = graph_.nodes[std::size_t(at)];
             way.points = {{node.place, node.clearance}};
         }
@@ -416,9 +353,7 @@ private:
     std::vector<std::int32_t> parent_;  // of rooms
     std::vector<std::uint8_t> flags_;   // of joined rooms what they lead to
     std::vector<std::uint8_t> reached_; // by nodes outside
-    std::vector<double> weights_;       // of edges
-    std::vector<std::size_t> begins_;   // of each node in edges_
-    std::vector<std::int32_t> edges_;
+    VoidPaths paths_;
     std::vector<Port> ports_;                                                // of passages by now
     std::array<std::int32_t, 2> inner_ = {VoidGraph::none, VoidGraph::none}; // endings in rooms
     double widest_ = std::numeric_limits<double>::infinity();                // at these

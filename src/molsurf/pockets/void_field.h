@@ -11,11 +11,17 @@
 #include "molsurf/progress.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <vector>
 
 namespace molsurf
 {
+
+/// How deep a place with a clearance lies below what a large probe reaches from outside.
+using DepthAt = std::function<OuterDepth::Depth(const openvdb::Vec3d&, double)>;
+/// The same, below a cut.
+using BelowCut = DepthAt;
 
 using PocketOptions = Wanted::PocketRule;
 

@@ -354,7 +354,7 @@ private:
     {
         for (const std::int32_t i : own) touched_[std::size_t(i)] = 1;
         const std::int32_t to = endOf(own, curve, stop);
-        if (from == noBall || to == noBall) return;
+        if (from == noBall || to == noBall) return addStub(from, to, own, start, stop);
         VoidGraph::Edge edge{{from, to},
                              0.0,
                              Vec3d(0.0),
@@ -375,6 +375,25 @@ private:
                              graph_.nodes[std::size_t(from)].balls[3] == noBall;
         if (isAlone && alone_.insert({own[0], own[1], own[2], noBall}).second)
             climb(landAt(edge.narrowest, edge.clearance, own), true);
+    }
+
+    /// Adds an edge of which an end is at the floor, if the other one is a node.
+    void addStub(std::int32_t from, std::int32_t to, const Triple& own, const Start& start,
+                 const Stop& stop)
+    {
+        if (from == to) return;
+        const bool falls = to == noBall;
+        const double high = falls ? start.clearance : stop.clearance;
+        const auto highSide = std::int8_t(falls ? start.side : stop.side),
+                   lowSide = std::int8_t(falls ? stop.side : start.side);
+        graph_.stubs.push_back({{falls ? from : to, noBall},
+                                graph_.floor,
+                                Vec3d(0.0),
+                                false,
+                                own,
+                                {high, graph_.floor},
+                                {highSide, lowSide},
+                                Vec3d(0.0)});
     }
 
     /// Whether a place in the plane of three centres lies in their triangle.
@@ -669,6 +688,12 @@ void joinOutside(VoidGraph& graph)
         if (edge.nodes[0] != edge.nodes[1] || edge.isNeck) graph.edges[kept++] = edge;
     }
     graph.edges.resize(kept);
+    kept = 0;
+    for (VoidGraph::Edge stub : graph.stubs) {
+        stub.nodes[0] = numbers[std::size_t(stub.nodes[0])];
+        if (stub.nodes[0] != VoidGraph::none) graph.stubs[kept++] = stub;
+    }
+    graph.stubs.resize(kept);
     for (std::int32_t& start : graph.starts)
         if (start != noBall) start = numbers[std::size_t(start)];
 }
@@ -783,7 +808,7 @@ Rooms roomsOf(const VoidGraph& graph)
 VoidGraph voidGraph(const std::vector<Ball>& balls, double floor, const std::vector<Vec3d>& starts,
                     const Progress& progress)
 {
-    VoidGraph out{floor, inGeneralPosition(balls), {}, {}, {}};
+    VoidGraph out{floor, inGeneralPosition(balls), {}, {}, {}, {}};
     Tracer tracer(out, progress);
     tracer.run();
     for (const Vec3d& x : starts) out.starts.push_back(tracer.climbFrom(x));

@@ -65,6 +65,7 @@ struct VoidGraph {
     std::vector<Ball> balls; ///< moved; Ball::atom is the index in the caller's vector
     std::vector<Node> nodes; ///< the first is the outside
     std::vector<Edge> edges;
+    std::vector<Edge> stubs; ///< edges from a node down to the floor: the other node is none
     std::vector<std::int32_t> starts; ///< nodes of places from which edges lead up into the graph;
                                       ///< none: it is below the floor
 

@@ -76,7 +76,8 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
 
 void resolveSelections(const SelectOptions& options, const Model& model, Structure& structure)
 {
-    std::vector<std::string> expressions{options.select, options.pocketAt};
+    std::vector<std::string> expressions{options.select, options.pocketAt,
+                                         tunnelSelection(options.tunnelsFrom)};
     for (const std::string& end : poreSelections(options.pore)) expressions.push_back(end);
     for (const GroupRule& rule : options.groups) expressions.push_back(rule.select);
     for (const ResolutionRule& rule : options.resolutions) expressions.push_back(rule.select);

@@ -83,7 +83,9 @@ openvdb::Vec3d axisIn(const std::string& text)
     return axis->unit();
 }
 
-BallSet::PoreWay::End endOf(const std::string& text, const Structure& structure, const Model& model)
+/// @param[in] option  that says it, in backticks
+BallSet::PoreWay::End endOf(const std::string& text, const char* option, const Structure& structure,
+                            const Model& model)
 {
     if (const auto point = numbersIn(text)) return {*point, true};
     openvdb::Vec3d sum(0.0);
@@ -96,13 +98,23 @@ BallSet::PoreWay::End endOf(const std::string& text, const Structure& structure,
             ++count;
         }
     } catch (const Error& error) {
-        throw Error(ErrorKind::Usage, std::string("`pore`: ") + error.what());
+        throw Error(ErrorKind::Usage, std::string(option) + ": " + error.what());
     }
     if (count == 0)
-        throw Error(ErrorKind::Usage, "`pore`: selection " + inQuotes(text) +
+        throw Error(ErrorKind::Usage, std::string(option) + ": selection " + inQuotes(text) +
                                           " matches no atom of model " +
                                           std::to_string(model.number));
     return {sum / double(count), false};
+}
+
+/// @throws Error(ErrorKind::Usage) if it is of numbers but no point
+void checkEnd(const std::string& text, const char* option)
+{
+    if (numbersIn(text) || !isOfNumbers(text)) return;
+    throw Error(ErrorKind::Usage,
+                std::string(option) +
+                    ": expected X,Y,Z, numbers within 1e6 Å, or a selection, got " +
+                    inQuotes(text));
 }
 
 } // namespace
@@ -118,11 +130,21 @@ void checkPore(const std::string& pore)
         throw Error(ErrorKind::Usage,
                     "`pore`: expected a point as 1,2,3 or a selection on both sides of ->, got " +
                         inQuotes(pore));
-    for (const std::string& side : sides)
-        if (!numbersIn(side) && isOfNumbers(side))
-            throw Error(ErrorKind::Usage,
-                        "`pore`: expected X,Y,Z, numbers within 1e6 Å, or a selection, got " +
-                            inQuotes(side));
+    for (const std::string& side : sides) checkEnd(side, "`pore`");
+}
+
+void checkTunnelsFrom(const std::string& from)
+{
+    checkEnd(from, "`tunnelsFrom`");
+}
+
+std::optional<BallSet::PoreWay::End> tunnelsFrom(const std::string& from,
+                                                 const Structure& structure, const Model& model)
+{
+    checkTunnelsFrom(from);
+    const std::string text = withoutSpace(from);
+    if (text.empty()) return {};
+    return endOf(text, "`tunnelsFrom`", structure, model);
 }
 
 std::vector<std::string> poreSelections(const std::string& pore)
@@ -135,6 +157,11 @@ std::vector<std::string> poreSelections(const std::string& pore)
     return out;
 }
 
+std::string tunnelSelection(const std::string& from)
+{
+    return numbersIn(from) ? "" : withoutSpace(from);
+}
+
 std::optional<BallSet::PoreWay> poreWay(const std::string& pore, const Structure& structure,
                                         const Model& model)
 {
@@ -142,7 +169,8 @@ std::optional<BallSet::PoreWay> poreWay(const std::string& pore, const Structure
     const std::vector<std::string> sides = sidesOf(pore);
     BallSet::PoreWay out;
     if (sides.size() == 2) {
-        for (const std::string& side : sides) out.ends.push_back(endOf(side, structure, model));
+        for (const std::string& side : sides)
+            out.ends.push_back(endOf(side, "`pore`", structure, model));
         constexpr double apart = 1.0; // [Å]
         if ((out.ends[1].place - out.ends[0].place).length() < apart)
             throw Error(ErrorKind::Usage, "`pore`: expected two ends 1 Å apart or more, got " +

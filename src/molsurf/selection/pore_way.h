@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Where a pore is searched for, as SelectOptions::pore says it.
+/// Where a pore is searched for, as SelectOptions::pore says it, and where tunnels begin.
 
 #include "molsurf/atoms.h"
 #include "molsurf/structure/structure.h"
@@ -26,5 +26,18 @@ std::vector<std::string> poreSelections(const std::string& pore);
 ///         or both ends are in one place
 std::optional<BallSet::PoreWay> poreWay(const std::string& pore, const Structure& structure,
                                         const Model& model);
+
+/// Checks where tunnels begin.
+/// @throws Error(ErrorKind::Usage) if it is of numbers but no point
+void checkTunnelsFrom(const std::string& from);
+
+/// The selection that it is, or "".
+std::string tunnelSelection(const std::string& from);
+
+/// Where they begin; none: nothing is asked for.
+/// @throws Error(ErrorKind::Usage) as checkTunnelsFrom(), or if a selection matches no atom of the
+///         model
+std::optional<BallSet::PoreWay::End> tunnelsFrom(const std::string& from,
+                                                 const Structure& structure, const Model& model);
 
 } // namespace molsurf

@@ -548,6 +548,7 @@ void checkOptions(const SelectOptions& options)
 {
     checkCopies(options.copies);
     checkPore(options.pore);
+    checkTunnelsFrom(options.tunnelsFrom);
     if (options.groupBy && options.groupBy->kind == GroupBy::Kind::Residues &&
         options.groupBy->residues < 1)
         throw Error(ErrorKind::Usage, "`groupBy`: expected at least one residue, got " +
@@ -604,12 +605,13 @@ void addPocketPlaces(const Structure& structure, const SelectOptions& options, c
                                *names.begin() + "\" leaves them out]");
 }
 
-/// Adds where a pocket and a pore are searched for.
+/// Adds where a pocket, a pore and tunnels are searched for.
 void addPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
                BallSet& out)
 {
     addPocketPlaces(structure, options, model, out);
     out.pore = poreWay(options.pore, structure, model);
+    out.tunnelsFrom = tunnelsFrom(options.tunnelsFrom, structure, model);
 }
 
 } // namespace

@@ -24,12 +24,16 @@ void check(bool good, const std::string& option, const std::string& expected, do
     throw Error(ErrorKind::Usage, message.str());
 }
 
-void checkPockets(const Wanted::PocketRule& pocket)
+void checkPockets(const Wanted& wanted)
 {
+    const Wanted::PocketRule& pocket = wanted.pocket;
     check(pocket.probeIn >= 0.5 && pocket.probeIn <= 10.0, "`probeIn`", "0.5 to 10 Å",
           pocket.probeIn);
     check(pocket.probeOut > pocket.probeIn && pocket.probeOut <= 50.0, "`probeOut`",
           "more than `probeIn`, and at most 50 Å", pocket.probeOut);
+    const double tunnel = wanted.tunnelProbe;
+    check(tunnel >= 0.3 && tunnel <= 10.0 && tunnel < pocket.probeOut, "`tunnelProbe`",
+          "0.3 to 10 Å, and less than `probeOut`", tunnel);
     check(pocket.cut >= 0.0 && pocket.cut <= 50.0, "`pocketCut`", "0 to 50 Å", pocket.cut);
     check(pocket.neck >= 0.0 && pocket.neck <= 1.0, "`pocketNeck`", "0 to 1", pocket.neck);
 }
@@ -61,7 +65,7 @@ void checkOptions(const SurfaceOptions& options)
           "`adapt`", "0.001 to 1 Å", options.meshError);
     if (options.meshError > 0.0 && options.meshEdge == 0.0)
         throw Error(ErrorKind::Usage, "`adapt`: expected `remesh` too, the longest edge");
-    checkPockets(options.pocket);
+    checkPockets(options);
     for (const std::string& field : options.fields) {
         const FieldRow* row = findField(field);
         if (!row) throw Error(ErrorKind::Usage, "`fields`: there is no field '" + field + "'");

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/core/words.h"
 #include "molsurf/report.h"
-#include "molsurf/selection/ball_names.h"
-#include "molsurf/selection/ball_values.h"
+#include "molsurf/surface/lining.h"
 
 #include <array>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <set>
 #include <utility>
 
 namespace molsurf
@@ -19,56 +16,19 @@ namespace
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The atoms that line a pocket.
-struct Lining {
-    std::string residues, atoms;     ///< names and numbers, with spaces between
-    double hydrophobicity = unknown; ///< mean over the wall
-    double charge = unknown;         ///< of side chains [e]
-};
-
-double chargeOf(const std::string& residue)
-{
-    const std::string name = parentResidue(residue);
-    if (name == "LYS" || name == "ARG") return 1.0;
-    return name == "ASP" || name == "GLU" ? -1.0 : 0.0;
-}
-
 /// A number without the digits that voxels do not resolve.
 double digitsThatHold(double number)
 {
     return std::strtod(formatted("%.7g", number).c_str(), nullptr);
 }
 
-void append(const std::string& word, std::string& list)
+/// What lines a pocket.
+Lining liningOfPocket(const BallSet& atoms, const Report::Pockets::Pocket& pocket)
 {
-    list += (list.empty() ? "" : " ") + word;
-}
-
-Lining liningOf(const BallSet& atoms, const Report::Pockets::Pocket& pocket)
-{
-    Lining out;
-    std::set<std::int32_t> residues;
-    double sum = 0.0, area = 0.0, charge = unknown;
-    for (const Report::Pockets::Pocket::Lining& part : pocket.lining) {
-        append(std::to_string(atoms.balls[part.ball].atom), out.atoms);
-        if (!atoms.names) continue;
-        const std::int32_t residue = atoms.names->residueOf[part.ball];
-        residues.insert(residue);
-        const double value = hydrophobicityOf(atoms.names->residues[std::size_t(residue)].name);
-        if (!std::isfinite(value)) continue;
-        sum += part.area * value;
-        area += part.area;
-    }
-    if (area > 0.0) out.hydrophobicity = sum / area;
-    if (area > 0.0) charge = 0.0; // there are amino acids
-    for (const std::int32_t residue : residues) {
-        const BallNames::Residue& one = atoms.names->residues[std::size_t(residue)];
-        if (one.name.empty()) continue; // as in a list of balls
-        append(titleOf(one), out.residues);
-        charge += chargeOf(one.name);
-    }
-    out.charge = charge;
-    return out;
+    std::vector<std::pair<std::size_t, double>> parts;
+    for (const Report::Pockets::Pocket::Lining& part : pocket.lining)
+        parts.emplace_back(part.ball, part.area);
+    return liningOf(atoms, parts);
 }
 
 /// The columns of a table of pockets, filled row by row.
@@ -85,7 +45,7 @@ public:
             mouthRadius = mouth.radius;
             mouthPlace = mouth.place;
         }
-        const Lining lining = liningOf(atoms, pocket);
+        const Lining lining = liningOfPocket(atoms, pocket);
         const std::array<double, 14> row = {
             pocket.volume,         pocket.area,      pocket.depth,     pocket.radius,
             pocket.centre[0],      pocket.centre[1], pocket.centre[2], mouthArea,
@@ -97,7 +57,8 @@ public:
         mouths_.push_back(std::int64_t(pocket.mouths.size()));
         atoms_.push_back(std::int64_t(pocket.lining.size()));
         std::string near;
-        for (const std::size_t other : pocket.neighbours) append(std::to_string(other + 1), near);
+        for (const std::size_t other : pocket.neighbours)
+            near += (near.empty() ? "" : " ") + std::to_string(other + 1);
         neighbours_.push_back(near);
         residues_.push_back(lining.residues);
         ids_.push_back(lining.atoms);

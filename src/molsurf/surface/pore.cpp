@@ -20,11 +20,7 @@ void addPore(const BallSet& atoms, Progress& progress, Report& report)
     watch.stop("pore");
 }
 
-namespace
-{
-
-/// Adds the tube of a pore to a mesh.
-void addTube(const Report::Pore& pore, Mesh& mesh)
+void addTube(const std::vector<Report::Pore::Station>& stations, Mesh& mesh)
 {
     constexpr std::uint32_t sides = 32;
     constexpr double thread = 0.05; // radius of the tube where the pore is closed [Å]
@@ -40,7 +36,7 @@ void addTube(const Report::Pore& pore, Mesh& mesh)
         return openvdb::Vec3d(v[0], v[1], v[2]);
     };
     openvdb::Vec3d across(0.0);
-    for (const Report::Pore::Station& station : pore.stations) {
+    for (const Report::Pore::Station& station : stations) {
         const openvdb::Vec3d normal = vectorOf(station.normal);
         // Parallel transport: the last ring's first direction, made normal to this one's axis. So
         // rings do not twist.
@@ -55,7 +51,7 @@ void addTube(const Report::Pore& pore, Mesh& mesh)
                 station.radius);
         }
     }
-    const std::uint32_t rings = std::uint32_t(pore.stations.size());
+    const std::uint32_t rings = std::uint32_t(stations.size());
     for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {
         for (std::uint32_t k = 0; k < sides; ++k) {
             const std::uint32_t a = base + ring * sides + k,
@@ -65,7 +61,7 @@ void addTube(const Report::Pore& pore, Mesh& mesh)
         }
     }
     for (const bool last : {false, true}) { // the ends: fans of triangles about their middles
-        const Report::Pore::Station& end = last ? pore.stations.back() : pore.stations.front();
+        const Report::Pore::Station& end = last ? stations.back() : stations.front();
         const std::uint32_t middle = std::uint32_t(mesh.positions.size());
         const std::uint32_t first = base + (last ? (rings - 1) * sides : 0);
         add(vectorOf(end.place), vectorOf(end.normal) * (last ? 1.0 : -1.0), end.radius);
@@ -76,14 +72,12 @@ void addTube(const Report::Pore& pore, Mesh& mesh)
     }
 }
 
-} // namespace
-
 Mesh poreTube(const Report::Pore& pore)
 {
     Mesh mesh;
     mesh.scalars.push_back({"radius", {}});
-    addTube(pore, mesh);
-    for (const Report::Pore& other : pore.bundle) addTube(other, mesh);
+    addTube(pore.stations, mesh);
+    for (const Report::Pore& other : pore.bundle) addTube(other.stations, mesh);
     return mesh;
 }
 

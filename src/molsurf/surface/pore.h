@@ -14,6 +14,10 @@ namespace molsurf
 /// @param[in] atoms  with BallSet::pore
 void addPore(const BallSet& atoms, Progress& progress, Report& report);
 
+/// Adds a closed tube about stations to a mesh that has the scalar "radius", coloured by
+/// poreColor().
+void addTube(const std::vector<Report::Pore::Station>& stations, Mesh& mesh);
+
 /// The pore as a closed tube, coloured by poreColor() of its radius, which the scalar "radius" has.
 Mesh poreTube(const Report::Pore& pore);
 

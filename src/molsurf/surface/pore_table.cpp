@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/words.h"
 #include "molsurf/report.h"
-#include "molsurf/selection/ball_names.h"
+#include "molsurf/surface/lining.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <set>
 #include <utility>
 
 namespace molsurf
@@ -55,7 +53,9 @@ public:
             for (std::size_t k = 0; k < row.size(); ++k) numbers_[k].push_back(row[k]);
             necks_.push_back(s.isBottleneck);
             number_.push_back(pores_);
-            addLining(atoms, s);
+            Lining lining = namesOf(atoms, s.lining);
+            residues_.push_back(std::move(lining.residues));
+            ids_.push_back(std::move(lining.atoms));
         }
     }
 
@@ -76,21 +76,6 @@ public:
     }
 
 private:
-    void addLining(const BallSet& atoms, const Report::Pore::Station& s)
-    {
-        std::set<std::int32_t> seen;
-        std::string title, places;
-        for (const std::size_t ball : s.lining) {
-            places += (places.empty() ? "" : " ") + std::to_string(atoms.balls[ball].atom);
-            if (!atoms.names || !seen.insert(atoms.names->residueOf[ball]).second) continue;
-            const BallNames::Residue& residue =
-                atoms.names->residues[std::size_t(atoms.names->residueOf[ball])];
-            if (!residue.name.empty()) title += (title.empty() ? "" : " ") + titleOf(residue);
-        }
-        residues_.push_back(std::move(title));
-        ids_.push_back(std::move(places));
-    }
-
     std::int64_t pores_ = 0;
     std::array<std::vector<double>, 9> numbers_;
     std::vector<std::int64_t> necks_, number_;

@@ -15,6 +15,7 @@
 #include "molsurf/surface/interfaces.h"
 #include "molsurf/surface/pockets.h"
 #include "molsurf/surface/pore.h"
+#include "molsurf/surface/tunnels.h"
 #include "molsurf/surface/whole_run.h"
 
 #include <algorithm>
@@ -41,11 +42,16 @@ void needGroups(const BallSet& atoms, const Options&)
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
 }
 
+constexpr char ofPore[] = "`pore`", ofTunnels[] = "`tunnelsFrom`";
+
+/// Checks that a way through the void is one of the whole.
+template<const auto& option>
 void needOnePlace(const BallSet& atoms, const Options&)
 {
     if (!atoms.placement.isWhole())
-        throw Error(ErrorKind::Usage,
-                    "`pore`: expected one surface, and not `instances` or `bySymmetry`");
+        throw Error(ErrorKind::Usage, std::string(option) +
+                                          ": expected one surface, and not `instances` or "
+                                          "`bySymmetry`");
 }
 
 void needOnePrototype(const BallSet& atoms, const Options&)
@@ -218,8 +224,12 @@ const std::vector<ProductRow>& productTable()
         {"`pockets`", InBricks | BySymmetry, [](auto&, auto& o) { return wantsPockets(o); },
          needOnePrototype,
          [](MadeRun& run) { addPockets(run.atoms, run.options, run.progress, run.result); }},
-        {"`pore`", always, [](auto& atoms, auto&) { return atoms.pore.has_value(); }, needOnePlace,
+        {ofPore, always, [](auto& atoms, auto&) { return atoms.pore.has_value(); },
+         needOnePlace<ofPore>,
          [](MadeRun& run) { addPore(run.atoms, run.progress, run.result.report); }},
+        {ofTunnels, always, [](auto& atoms, auto&) { return atoms.tunnelsFrom.has_value(); },
+         needOnePlace<ofTunnels>,
+         [](MadeRun& run) { addTunnels(run.atoms, run.options, run.progress, run.result.report); }},
         {"areas of atoms", always, [](auto&, auto& o) { return o.ballAreas; }, needAreas,
          makeAreas},
         {"contacts", always, [](auto&, auto& o) { return o.contacts; }, nullptr,

@@ -734,10 +734,20 @@ std::vector<Setting> pocketSettings()
                         "auto, an axis as z, or its ends, points or atoms, as\n"
                         "'0,0,-9 -> 0,0,9', 'resid 14 -> resid 43'",
                         "none", MOLSURF_OF(atoms.pore));
-    at.ofAtoms = pore.ofAtoms = true;
+    Setting tunnels = text("tunnels-from", "PLACE",
+                           "the ways out of a place, for the report, .tunnels.csv, and\n"
+                           "as .tunnels.ply, .obj, .glb, .pdb, .cif, .cxc, .pml: atoms,\n"
+                           "as 'resid 197', or a point X,Y,Z",
+                           "none", MOLSURF_OF(atoms.tunnelsFrom));
+    at.ofAtoms = pore.ofAtoms = tunnels.ofAtoms = true;
     return {
         at,
         pore,
+        tunnels,
+        number("tunnel-probe", "R",
+               "tunnels are at least as wide as a ball of this radius [Å],\n0.3 to 10; they end "
+               "where one of `probeOut` gets",
+               MOLSURF_OF(options.tunnelProbe)),
         flag("pockets",
              "pockets of the surface, for the report, .pockets.csv, and a\n"
              "mesh of each, as by .pockets.ply, .obj, .stl or .glb",

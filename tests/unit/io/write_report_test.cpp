@@ -47,8 +47,8 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
                                  "grid",       "seconds",        "peak_memory_bytes",
                                  "threads",    "groups",         "areas_of",
                                  "interfaces", "pockets",        "pore",
-                                 "parts",      "instances",      "symmetry",
-                                 "warnings"}));
+                                 "tunnels",    "parts",          "instances",
+                                 "symmetry",   "warnings"}));
     Names surface = keys(json["surface"]);
     surface.resize(14); // later keys are additions
     EXPECT_EQ(surface,
@@ -99,6 +99,9 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.pore.emplace().stations.resize(1);
     report.pore->stations[0].isBottleneck = true;
     report.pore->others.resize(1);
+    report.tunnels.emplace().list.resize(1);
+    report.tunnels->list[0].stations.resize(1);
+    report.tunnels->list[0].stations[0].isBottleneck = true;
     report.parts.resize(1);
     report.instances.resize(1);
     report.symmetry = Report::Symmetry();

@@ -57,11 +57,6 @@ const Report::Pore::Station& narrowestOf(const Report::Pore& pore)
                              [](auto& a, auto& b) { return a.radius < b.radius; });
 }
 
-Vec3d placeOf(const Report::Pore::Station& s)
-{
-    return {s.place[0], s.place[1], s.place[2]};
-}
-
 const Progress nobody;
 
 // A ball in the middle of a ring of radius R touches all of it: R - r.
