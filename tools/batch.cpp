@@ -8,10 +8,10 @@
 #include "outputs.h"
 #include "terminal.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/io/made_folders.h"
 #include "molsurf/io/output_file.h"
+#include "molsurf/io/output_folders.h"
 #include "molsurf/io/read_report.h"
 #include "molsurf/structure/structure_list.h"
 
@@ -36,7 +36,7 @@ struct Task {
 };
 
 // Refuses to write what is read, and the files of a structure that is called summary.
-void checkNames(const Call& call, const std::vector<Task>& tasks)
+void checkNames(const CommandLine& call, const std::vector<Task>& tasks)
 {
     const std::vector<std::string> own = BatchJournal::paths(call.folder);
     InputFiles inputs(call);
@@ -53,15 +53,15 @@ void checkNames(const Call& call, const std::vector<Task>& tasks)
     }
 }
 
-[[noreturn]] void failTwice(const Call& call, const std::string& one, const std::string& other,
-                            const std::string& outputs)
+[[noreturn]] void failTwice(const CommandLine& call, const std::string& one,
+                            const std::string& other, const std::string& outputs)
 {
     throw Error(ErrorKind::Input,
                 call.input + ": " + one + " and " + other + " would both be written to " + outputs);
 }
 
 // The structures of the list, each with its files: the call's outputs have extensions for paths.
-std::vector<Task> tasksOf(const Call& call)
+std::vector<Task> tasksOf(const CommandLine& call)
 {
     std::vector<Task> tasks;
     std::map<std::string, std::string> taken; // by stem
@@ -89,7 +89,7 @@ std::size_t existing(const std::vector<Output>& outputs)
     }));
 }
 
-BatchEntry beginEntry(const Call& call, const Task& task)
+BatchEntry beginEntry(const CommandLine& call, const Task& task)
 {
     BatchEntry entry;
     entry.name = task.name;
@@ -115,7 +115,7 @@ BatchEntry doneEntry(BatchEntry entry, const Report& report)
 
 // Whether the report among its files says that they are of this call and input, though the journal
 // has lost its line.
-bool areOwn(const Call& call, const Task& task, const std::string& sha256)
+bool areOwn(const CommandLine& call, const Task& task, const std::string& sha256)
 {
     for (const Output& output : task.outputs) {
         const auto known = output.holds(Numbers) ? readReport(output.path) : std::nullopt;
@@ -128,7 +128,7 @@ bool areOwn(const Call& call, const Task& task, const std::string& sha256)
 // that a run has begun may be replaced, others only with --force. An error of the structure becomes
 // the status of its entry, so that the others go on.
 // @param[out] kept  done before
-BatchEntry perform(const Call& call, const Task& task, BatchJournal& journal, bool& kept)
+BatchEntry perform(const CommandLine& call, const Task& task, BatchJournal& journal, bool& kept)
 {
     BatchEntry entry = beginEntry(call, task);
     const BatchEntry* before = journal.find(task.name);
@@ -143,7 +143,7 @@ BatchEntry perform(const Call& call, const Task& task, BatchJournal& journal, bo
                         ", which has another content [hint: another folder, or --force]";
         return entry;
     }
-    Call one = call;
+    CommandLine one = call;
     one.input = task.input;
     one.inputSha256 = entry.sha256;
     one.outputs = task.outputs;
@@ -179,7 +179,7 @@ std::string describe(const BatchEntry& entry)
 
 } // namespace
 
-int batch(Call call)
+int batch(CommandLine call)
 {
     for (const OptionFile& file : filesOf(call.verb, call.given))
         if (file.option->stored)
@@ -192,7 +192,7 @@ int batch(Call call)
     BatchJournal journal(call.folder, {MOLSURF_VERSION, optionsLine(call), {}, call.identity},
                          call.force);
     if (!call.quiet)
-        for (const std::string& warning : call.warnings) say("warning: " + warning);
+        for (const std::string& warning : call.warnings) printLine("warning: " + warning);
 
     std::size_t kept = 0, failed = 0, passing = 0, creeping = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -203,21 +203,21 @@ int batch(Call call)
         passing += entry.mayPass;
         creeping += entry.status == "not converged";
         if (!before && !call.quiet)
-            say(std::to_string(i + 1) + "/" + std::to_string(tasks.size()) + " " + tasks[i].input +
-                ": " + describe(entry));
+            printLine(std::to_string(i + 1) + "/" + std::to_string(tasks.size()) + " " +
+                      tasks[i].input + ": " + describe(entry));
     }
     journal.writeTables();
     const fs::path folder = call.folder;
     if (call.quiet && failed > 0)
-        say("error: " + std::to_string(failed) + " of " +
-            counted(tasks.size(), "structure", "structures") + " failed; the table is " +
-            (folder / "summary.csv").string());
+        printLine("error: " + std::to_string(failed) + " of " +
+                  counted(tasks.size(), "structure", "structures") + " failed; the table is " +
+                  (folder / "summary.csv").string());
     if (!call.quiet) {
         std::string line = counted(tasks.size(), "structure", "structures");
         if (kept > 0) line += ", " + std::to_string(kept) + " done before";
         if (creeping > 0) line += ", " + std::to_string(creeping) + " not converged";
-        say(line + ", " + std::to_string(failed) + " failed; the table is " +
-            (folder / "summary.csv").string());
+        printLine(line + ", " + std::to_string(failed) + " failed; the table is " +
+                  (folder / "summary.csv").string());
     }
     if (failed > 0) return passing > 0 ? laterStatus : failedStatus;
     return creeping > 0 ? notConvergedStatus : doneStatus;

@@ -4,7 +4,7 @@
 #include "outputs.h"
 #include "stop.h"
 
-#include "molsurf/core/may_pass.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/output_file.h"

@@ -12,7 +12,7 @@
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void checkFile(const PlanInput& file, PlanFiles how)
 
 } // namespace
 
-Call callOf(PlanManifest manifest, const std::string& path, PlanFiles files)
+CommandLine callOf(PlanManifest manifest, const std::string& path, PlanFiles files)
 {
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     const auto resolved = [&](const std::string& file) { return (folder / file).string(); };
@@ -77,7 +77,7 @@ Call callOf(PlanManifest manifest, const std::string& path, PlanFiles files)
         throw Error(ErrorKind::Input, "the plan was made by version " + manifest.version +
                                           ", this is " MOLSURF_VERSION);
     for (const PlanInput& file : manifest.files) checkFile(file, files);
-    Call call;
+    CommandLine call;
     call.verb = BricksPlan;
     call.input = manifest.input;
     setOptions(manifest.options, call);
@@ -105,7 +105,7 @@ bool isDone(const std::string& path, const std::string& id, std::size_t number)
 
 } // namespace
 
-int brick(const Call& call)
+int brick(const CommandLine& call)
 {
     failIfStream(call.input, "the file of a plan");
     const PlanManifest manifest = readManifest(call.input);
@@ -116,10 +116,10 @@ int brick(const Call& call)
                                           std::to_string(call.brick));
     const std::string id = sha256OfFile(call.input), path = brickPath(call.input, call.brick);
     if (!call.force && isDone(path, id, call.brick)) {
-        if (!call.quiet) say(path + " is done already");
+        if (!call.quiet) printLine(path + " is done already");
         return 0;
     }
-    Call build = callOf(manifest, call.input, PlanFiles::Sizes);
+    CommandLine build = callOf(manifest, call.input, PlanFiles::Sizes);
     build.outputs = {{path, findFormat("vdb")}};
     build.force = true;
     build.quiet = call.quiet;
@@ -139,9 +139,9 @@ int brick(const Call& call)
     terminal.erase();
     if (!call.quiet) {
         const PlannedBrick& planned = manifest.plan.bricks[call.brick - 1];
-        say(path + formatted(": %.2f s, %s of memory (%s planned)", secondsSince(start),
-                             sizeText(double(peakMemory())).c_str(),
-                             sizeText(double(planned.bytes)).c_str()));
+        printLine(path + formatted(": %.2f s, %s of memory (%s planned)", secondsSince(start),
+                                   sizeText(double(peakMemory())).c_str(),
+                                   sizeText(double(planned.bytes)).c_str()));
     }
     return 0;
 }

@@ -42,28 +42,28 @@ enum class PlanFiles {
 /// The call that a plan was made with, as a build.
 /// @param[in] path  of the plan, from whose folder its files are found
 /// @throws Error(ErrorKind::Input) if a file has changed since the plan was made
-Call callOf(PlanManifest manifest, const std::string& path, PlanFiles files);
+CommandLine callOf(PlanManifest manifest, const std::string& path, PlanFiles files);
 
 /// Joins bricks and writes the outputs of a call.
 /// @param[in]     paths   of all bricks, in their order
 /// @param[in]     id      of their plan
 /// @param[in]     meshed  whether they have to hold the mesh
 /// @param[in,out] report  completed
-void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std::string>& paths,
-                 const std::string& id, bool meshed, Terminal& terminal, Clock::time_point start,
-                 Report& report);
+void mergeBricks(const CommandLine& call, const BrickPlan& plan,
+                 const std::vector<std::string>& paths, const std::string& id, bool meshed,
+                 Terminal& terminal, Clock::time_point start, Report& report);
 
 /// Whether a build can be made in bricks, as far as its options decide that.
-bool goesInBricks(const Call& call);
+bool goesInBricks(const CommandLine& call);
 
 /// Limits of a surface by a call and on this machine.
-RunLimits limitsOf(const Call& call);
+RunLimits limitsOf(const CommandLine& call);
 
 /// The same of a surface of atoms, with the bodies that pictures show.
-RunLimits limitsOf(const Call& call, const BallSet& atoms);
+RunLimits limitsOf(const CommandLine& call, const BallSet& atoms);
 
 /// Whether pictures show what is behind the nearest wall, too.
-bool seesBehind(const Call& call);
+bool seesBehind(const CommandLine& call);
 
 /// The last line of a run.
 std::string summary(const Report& report);
@@ -72,7 +72,7 @@ std::string summary(const Report& report);
 void sayTimes(const Report& report);
 
 /// The option that lets the flow of a call make more steps.
-std::string moreSteps(const Call& call);
+std::string moreSteps(const CommandLine& call);
 
 /// Says so if the flow did not converge.
 /// @param[in] more  option that lets it make more steps

@@ -14,9 +14,9 @@
 #include "write_result.h"
 
 #include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/io/made_folders.h"
+#include "molsurf/io/output_folders.h"
 #include "molsurf/pipeline/check_balls.h"
 #include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/spline/curvature.h"
@@ -37,9 +37,9 @@ namespace molsurf::tool
 namespace
 {
 
-void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result,
+void writeAll(const CommandLine& call, const BallSet& atoms, MolecularSurface& result,
               const ShownMeshes& shown, Terminal& terminal, Clock::time_point programStart,
-              const Companions& companions)
+              const ExtraOutputs& companions)
 {
     writeOutputs(
         call, terminal,
@@ -52,8 +52,9 @@ void writeAll(const Call& call, const BallSet& atoms, MolecularSurface& result,
         });
 }
 
-// Adds the report of makePrototypes() to that of reading.
-void completeReport(const Call& call, const BallSet& balls, const Report& read, Report& report)
+// Adds the report of makeUnitSurface() to that of reading.
+void completeReport(const CommandLine& call, const BallSet& balls, const Report& read,
+                    Report& report)
 {
     beginReport(call, report);
     report.voxel = call.options.grid ? call.options.voxel : 0.0;
@@ -72,14 +73,14 @@ void completeReport(const Call& call, const BallSet& balls, const Report& read, 
 
 } // namespace
 
-bool seesBehind(const Call& call)
+bool seesBehind(const CommandLine& call)
 {
     const bool throughBodies = call.showsPockets() && !call.shows.empty();
     return throughBodies ||
            (call.picture.opacity < 1.0 && (call.picture.allWalls || call.showsPockets()));
 }
 
-RunLimits limitsOf(const Call& call)
+RunLimits limitsOf(const CommandLine& call)
 {
     const std::size_t threads =
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -92,7 +93,7 @@ RunLimits limitsOf(const Call& call)
     return limits;
 }
 
-RunLimits limitsOf(const Call& call, const BallSet& atoms)
+RunLimits limitsOf(const CommandLine& call, const BallSet& atoms)
 {
     RunLimits limits = limitsOf(call);
     // measured: build --show pockets=all of 1CRN, 4AT1, with --opacity 0.4 and without: 1.1 to 1.5;
@@ -134,17 +135,17 @@ std::string summary(const Report& report)
 void sayTimes(const Report& report)
 {
     for (const auto& [stage, time] : report.seconds) {
-        say(formatted("%-10s %9.3f s", stage.c_str(), time));
+        printLine(formatted("%-10s %9.3f s", stage.c_str(), time));
     }
-    say(formatted("%d threads, %.1f MB at most, %zu active voxels", report.threads,
-                  double(report.peakMemoryBytes) / 1e6, report.activeVoxels));
+    printLine(formatted("%d threads, %.1f MB at most, %zu active voxels", report.threads,
+                        double(report.peakMemoryBytes) / 1e6, report.activeVoxels));
 }
 
 namespace
 {
 
 // The meshes of --lod behind the first one.
-std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& report,
+std::vector<Mesh> coarserMeshes(const CommandLine& call, const BallSet& balls, Report& report,
                                 Terminal& terminal)
 {
     std::vector<Mesh> meshes;
@@ -156,7 +157,7 @@ std::vector<Mesh> coarserMeshes(const Call& call, const BallSet& balls, Report& 
         const Clock::time_point start = Clock::now();
         options.voxel = call.lod[level];
         try {
-            meshes.push_back(makePrototypes(balls, options, &terminal).mesh);
+            meshes.push_back(makeUnitSurface(balls, options, &terminal).mesh);
         } catch (const Error& error) {
             throw Error(error, "--lod " + shortest(options.voxel) + ": " + error.what());
         }
@@ -175,7 +176,7 @@ void dropGrids(MolecularSurface& result)
 
 // The middle of the mesh's box comes to the origin, with what pictures show beside it; grids and
 // other atoms follow when they are written.
-void centerMesh(Call& call, MolecularSurface& result)
+void centerMesh(CommandLine& call, MolecularSurface& result)
 {
     const openvdb::Vec3d center =
         moveToOrigin(result.mesh, call.frame > 0 ? &call.scene.center : nullptr);
@@ -212,7 +213,7 @@ std::vector<StageShare> stagesOf(const SurfaceOptions& options, double drawing)
 }
 
 /// Refuses interfaces of one group, where the report of one structure would have nothing else.
-void checkGroups(const Call& call, const BallSet& balls)
+void checkGroups(const CommandLine& call, const BallSet& balls)
 {
     const bool implied = !call.has("groups") && !call.has("group-by") && !call.colorGroups;
     if (!call.has("interfaces") || !implied || call.verb != Build || !call.frames.empty() ||
@@ -236,7 +237,7 @@ bool isEstimated(const SurfaceOptions& options)
 
 /// Whether a number was asked for that depends on what the field closes: pieces, handles, cavities,
 /// pockets, areas of atoms. The report has the gaps in any case.
-bool dependsOnGaps(const Call& call)
+bool dependsOnGaps(const CommandLine& call)
 {
     const bool ofPieces =
         std::any_of(call.required.begin(), call.required.end(), [](const Requirement& one) {
@@ -274,9 +275,9 @@ std::string closedByField(const Report& report, const SurfaceOptions& options)
 
 } // namespace
 
-Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& terminal,
+Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Terminal& terminal,
                  Clock::time_point start, const std::function<void(MolecularSurface&)>& extend,
-                 const Companions& companions)
+                 const ExtraOutputs& companions)
 {
     stopIfAsked();
     checkGroups(call, balls);
@@ -297,7 +298,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     call.options.closedForm = many || call.writes(Numbers | Areas);
     MolecularSurface result;
     try {
-        result = makePrototypes(balls, withBodies(call), &terminal);
+        result = makeUnitSurface(balls, withBodies(call), &terminal);
     } catch (const Cancelled&) {
         terminal.failIfOverdue(" [hint: a larger --voxel or --max-hours, or fewer --max-steps]");
         throw;
@@ -320,7 +321,7 @@ Report surfaceOf(Call call, const BallSet& balls, const Report& read, Terminal& 
     warnOfPaint(call, result.mesh, result.report);
     terminal.erase();
     if (!call.quiet)
-        for (const std::string& warning : result.report.warnings) say("warning: " + warning);
+        for (const std::string& warning : result.report.warnings) printLine("warning: " + warning);
     completeReport(call, balls, read, result.report);
     for (const std::string& table : call.areas)
         result.report.tables.push_back(areaTable(table, call, balls, result));
@@ -400,7 +401,7 @@ std::string tunnelsLine(const Report::Tunnels& tunnels)
 /// and so their bytes, go by the inverse square of the voxel. 4V5A, 1K4R and 1F2N have about 16
 /// bytes an atom besides, and their solvent-excluded surfaces half as many triangles again as the
 /// variational ones. These do not come to rest on large voxels.
-void sayLargePages(const Call& call, std::size_t balls)
+void sayLargePages(const CommandLine& call, std::size_t balls)
 {
     constexpr double large = 12e6, wanted = 11e6; // [byte]
     const double ofAtoms = std::min(16.0 * double(balls), 0.75 * wanted);
@@ -413,33 +414,33 @@ void sayLargePages(const Call& call, std::size_t balls)
             hasFlow(call.options.kind) && call.options.voxel * std::sqrt(shrink) > 1.0;
         if (other) shrink *= 1.5;
         const double voxel = std::ceil(10.0 * call.options.voxel * std::sqrt(shrink)) / 10.0;
-        say(formatted("%s: the page has %.0f MB [hint: %s--voxel %g makes it lighter]",
-                      output.path.c_str(), double(bytes) / 1e6, other ? "--surface ses " : "",
-                      std::min(voxel, maxVoxel)));
+        printLine(formatted("%s: the page has %.0f MB [hint: %s--voxel %g makes it lighter]",
+                            output.path.c_str(), double(bytes) / 1e6, other ? "--surface ses " : "",
+                            std::min(voxel, maxVoxel)));
     }
 }
 
 } // namespace
 
-Report buildSurface(const Call& call, const BallSet& balls, const Report& read, Terminal& terminal,
-                    Clock::time_point start)
+Report buildSurface(const CommandLine& call, const BallSet& balls, const Report& read,
+                    Terminal& terminal, Clock::time_point start)
 {
     const Report report = surfaceOf(call, balls, read, terminal, start);
     if (call.verbose) sayTimes(report);
     if (call.quiet) return report;
-    say(summary(report));
-    if (report.pockets) say(pocketsLine(*report.pockets));
-    if (report.pore) say(poreLine(*report.pore));
-    if (report.tunnels) say(tunnelsLine(*report.tunnels));
-    for (const std::string& line : leftOutOf(call)) say(line);
+    printLine(summary(report));
+    if (report.pockets) printLine(pocketsLine(*report.pockets));
+    if (report.pore) printLine(poreLine(*report.pore));
+    if (report.tunnels) printLine(tunnelsLine(*report.tunnels));
+    for (const std::string& line : leftOutOf(call)) printLine(line);
     sayLargePages(call, balls.balls.size());
     const std::string closed = dependsOnGaps(call) ? closedByField(report, call.options) : "";
-    if (!closed.empty()) say(closed);
+    if (!closed.empty()) printLine(closed);
     return report;
 }
 
 /// A line on the lattice, and how to go on.
-void saySolver(const Call& call)
+void saySolver(const CommandLine& call)
 {
     const auto input = std::find_if(call.outputs.begin(), call.outputs.end(), [](auto& output) {
         return output.format == findFormat("apbs.in");
@@ -447,11 +448,12 @@ void saySolver(const Call& call)
     if (!call.apbsGrid || input == call.outputs.end()) return;
     const openvdb::Vec3d h = call.apbsGrid->spacing();
     const auto& n = call.apbsGrid->points;
-    say(formatted("lattice: %d x %d x %d points, %.3g x %.3g x %.3g Å apart; to go on: apbs %s",
+    printLine(
+        formatted("lattice: %d x %d x %d points, %.3g x %.3g x %.3g Å apart; to go on: apbs %s",
                   n[0], n[1], n[2], h[0], h[1], h[2], input->path.c_str()));
 }
 
-Report buildSurface(Call call, Clock::time_point start)
+Report buildSurface(CommandLine call, Clock::time_point start)
 {
     MadeFolders folders;
     for (const Output& output : call.outputs)
@@ -468,11 +470,11 @@ Report buildSurface(Call call, Clock::time_point start)
     return report;
 }
 
-int build(const Call& asked, Clock::time_point start)
+int build(const CommandLine& asked, Clock::time_point start)
 {
-    Call call = asked;
+    CommandLine call = asked;
     if (const auto status = call.skipExisting ? statusOfExisting(call) : std::nullopt) {
-        if (!call.quiet) say("done before");
+        if (!call.quiet) printLine("done before");
         return *status;
     }
     if (call.dryRun || (call.options.grid && call.memory > 0)) return buildInBricks(call, start);
@@ -481,7 +483,7 @@ int build(const Call& asked, Clock::time_point start)
     return std::max(status, endOf(*call.panelSurfaces));
 }
 
-std::string moreSteps(const Call& call)
+std::string moreSteps(const CommandLine& call)
 {
     return call.has("steps") ? "--steps" : "--max-steps";
 }
@@ -490,7 +492,7 @@ int endOf(const Report& report, const std::string& more)
 {
     const auto& evolution = report.evolution;
     if (evolution && !evolution->converged) {
-        say(unrestText(*evolution, report.voxel, more));
+        printLine(unrestText(*evolution, report.voxel, more));
         return notConvergedStatus;
     }
     return 0;

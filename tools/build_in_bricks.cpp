@@ -5,8 +5,8 @@
 
 #include "molsurf/bricks/atoms_file.h"
 #include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/may_pass.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 #include "molsurf/grid/paged_array.h"
 #include "molsurf/io/commit.h"
@@ -86,7 +86,7 @@ void writeAtomsTo(const std::string& path, const BallSet& atoms, const BrickPlan
     file.commit();
 }
 
-void checkOutputs(const Call& call)
+void checkOutputs(const CommandLine& call)
 {
     if (call.scene.known() || call.center)
         throw Error(ErrorKind::Usage, "--for and --center need the whole molecule at once [hint: "
@@ -99,7 +99,7 @@ void checkOutputs(const Call& call)
 
 } // namespace
 
-bool goesInBricks(const Call& call)
+bool goesInBricks(const CommandLine& call)
 {
     if (call.verb != Build || call.atoms.repeats() || !call.frames.empty()) return false;
     try {
@@ -111,7 +111,7 @@ bool goesInBricks(const Call& call)
     return true;
 }
 
-int buildInBricks(Call call, Clock::time_point start)
+int buildInBricks(CommandLine call, Clock::time_point start)
 {
     prepareOutputs(call);
 
@@ -137,7 +137,7 @@ int buildInBricks(Call call, Clock::time_point start)
         if (!call.dryRun)
             return endOf(buildSurface(call, atoms, report, terminal, start), moreSteps(call));
         terminal.erase();
-        for (const std::string& line : describePlan(one)) say(line);
+        for (const std::string& line : describePlan(one)) printLine(line);
         return 0;
     }
     checkWay(InBricks, call.options);
@@ -147,8 +147,8 @@ int buildInBricks(Call call, Clock::time_point start)
     const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true, true}, terminal);
     terminal.erase();
     if (call.dryRun || !call.quiet) {
-        say("the whole takes about " + sizeText(double(whole)) + "; in bricks:");
-        for (const std::string& line : describePlan(plan)) say(line);
+        printLine("the whole takes about " + sizeText(double(whole)) + "; in bricks:");
+        for (const std::string& line : describePlan(plan)) printLine(line);
     }
     if (call.dryRun) return 0;
 
@@ -170,13 +170,13 @@ int buildInBricks(Call call, Clock::time_point start)
         if (!plan.keepsMemory) malloc_trim(0);
         if (!call.verbose) continue;
         terminal.erase();
-        say(formatted("brick %zu of %zu, %.2f s, %s at most", k, plan.bricks.size(),
-                      secondsSince(start), sizeText(double(peakMemory())).c_str()));
+        printLine(formatted("brick %zu of %zu, %.2f s, %s at most", k, plan.bricks.size(),
+                            secondsSince(start), sizeText(double(peakMemory())).c_str()));
     }
     releasePages();
     malloc_trim(0);
     mergeBricks(call, plan, paths, "one process", meshed, terminal, start, report);
-    if (!call.quiet) say(summary(report));
+    if (!call.quiet) printLine(summary(report));
     return endOf(report, "--steps");
 }
 

@@ -9,7 +9,7 @@
 #include "write_result.h"
 
 #include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/read_mesh.h"
 #include "molsurf/io/read_vdb.h"
@@ -68,7 +68,7 @@ void refuseScene(const std::string& path, const openvdb::MetaMap& metadata)
 /// @param[in,out] said  gets a line on a structure
 /// @param[in]     first  the other one, if that was read before
 /// @throws Error(ErrorKind::Input) if it costs too much, with the other one
-Read readOne(const Call& call, const std::string& path, Terminal& terminal,
+Read readOne(const CommandLine& call, const std::string& path, Terminal& terminal,
              std::vector<std::string>& said, const Read* first = nullptr)
 {
     Read read;
@@ -97,7 +97,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         stopIfAsked();
         read.operand = operandOf(std::move(mesh), terminal);
     } else {
-        Call own = call;
+        CommandLine own = call;
         if (first) own.anchors = first->anchors;
         const auto [selection, description, anchors, motion] = readBalls(path, own, terminal);
         said.push_back(description);
@@ -107,7 +107,7 @@ Read readOne(const Call& call, const std::string& path, Terminal& terminal,
         options.fields = {"spline"};
         if (!call.dryRun) checkCost(selection, options, limitsOf(call), terminal);
         if (!costs(planWhole(selection, options, terminal).bricks[0])) return read;
-        MolecularSurface result = makePrototypes(selection, options, &terminal);
+        MolecularSurface result = makeUnitSurface(selection, options, &terminal);
         read.converged = !result.report.evolution || result.report.evolution->converged;
         read.operand = operandOf(std::move(result));
         auto& warnings = read.operand.warnings;
@@ -135,7 +135,7 @@ std::string apartText(const Read& a, const Read& b)
                      structures ? " [hint: --superpose auto lays B on A]" : "");
 }
 
-std::vector<std::string> warningsOf(const Call& call, const Read& a, const Read& b)
+std::vector<std::string> warningsOf(const CommandLine& call, const Read& a, const Read& b)
 {
     std::vector<std::string> all = call.warnings;
     const bool structures = a.operand.kind == "structure" || b.operand.kind == "structure";
@@ -170,7 +170,7 @@ ComparedFile described(const Read& read)
             operand.surface.closed};
 }
 
-openvdb::MetaMap metadata(const Call& call, const ComparisonReport& report)
+openvdb::MetaMap metadata(const CommandLine& call, const ComparisonReport& report)
 {
     openvdb::MetaMap map;
     const auto text = [&](const char* name, const std::string& value) {
@@ -198,7 +198,7 @@ openvdb::MetaMap metadata(const Call& call, const ComparisonReport& report)
 }
 
 /// The grid `surface` of A, and the distances on its band.
-openvdb::GridCPtrVec grids(const Call& call, const Operand& a, const DistanceTo& toB,
+openvdb::GridCPtrVec grids(const CommandLine& call, const Operand& a, const DistanceTo& toB,
                            Terminal& terminal)
 {
     const openvdb::FloatGrid::Ptr surface =
@@ -211,7 +211,7 @@ openvdb::GridCPtrVec grids(const Call& call, const Operand& a, const DistanceTo&
 }
 
 /// Says what cannot be done with these two surfaces.
-void refuse(const Call& call, const Read& a, const Read& b)
+void refuse(const CommandLine& call, const Read& a, const Read& b)
 {
     const bool vdb = call.writes(Grids);
     if (call.colorBySign && !b.operand.surface.closed)
@@ -223,23 +223,24 @@ void refuse(const Call& call, const Read& a, const Read& b)
 }
 
 /// Prints the numbers that no file holds.
-void sayResult(const Call& call, const ComparisonReport& report)
+void sayResult(const CommandLine& call, const ComparisonReport& report)
 {
     if (call.outputs.empty()) std::cout << comparisonTable(report);
     if (call.verbose) {
         for (const auto& [stage, time] : report.seconds) {
-            say(formatted("%-11s %9.3f s", stage.c_str(), time));
+            printLine(formatted("%-11s %9.3f s", stage.c_str(), time));
         }
     }
     if (call.quiet || call.outputs.empty()) return;
     const Comparison& both = report.distances;
-    say(formatted("mean distance %.4f Å there, %.4f Å back, Hausdorff %.4f Å, %.2f s",
-                  both.aToB.mean, both.bToA.mean, both.hausdorff, report.seconds.back().second));
+    printLine(formatted("mean distance %.4f Å there, %.4f Å back, Hausdorff %.4f Å, %.2f s",
+                        both.aToB.mean, both.bToA.mean, both.hausdorff,
+                        report.seconds.back().second));
 }
 
 /// Compares two files and writes what was asked for.
 /// @return the exit status
-int compareFiles(const Call& call, Clock::time_point start, Terminal& terminal)
+int compareFiles(const CommandLine& call, Clock::time_point start, Terminal& terminal)
 {
     ComparisonReport report;
     Clock::time_point lapStart = Clock::now();
@@ -252,7 +253,7 @@ int compareFiles(const Call& call, Clock::time_point start, Terminal& terminal)
     const Read b = readOne(call, call.inputs[1], terminal, said, &a);
     if (call.dryRun) {
         terminal.erase();
-        say(costText(costOfComparison(a.cost, b.cost)));
+        printLine(costText(costOfComparison(a.cost, b.cost)));
         return 0;
     }
     lap("surfaces");
@@ -265,8 +266,8 @@ int compareFiles(const Call& call, Clock::time_point start, Terminal& terminal)
         report.warnings.push_back(withOptionNames(warning));
     terminal.erase();
     if (!call.quiet) {
-        for (const std::string& line : said) say(line);
-        for (const std::string& warning : report.warnings) say("warning: " + warning);
+        for (const std::string& line : said) printLine(line);
+        for (const std::string& warning : report.warnings) printLine("warning: " + warning);
     }
     refuse(call, a, b);
     stopIfAsked();
@@ -304,14 +305,14 @@ int compareFiles(const Call& call, Clock::time_point start, Terminal& terminal)
     sayResult(call, report);
     for (const Read* read : {&a, &b})
         if (!read->converged)
-            say(read->path + ": not converged; the files are written [hint: a larger "
-                             "--tolerance or a smaller --voxel]");
+            printLine(read->path + ": not converged; the files are written [hint: a larger "
+                                   "--tolerance or a smaller --voxel]");
     return a.converged && b.converged ? 0 : notConvergedStatus;
 }
 
 } // namespace
 
-int compare(const Call& call, Clock::time_point start)
+int compare(const CommandLine& call, Clock::time_point start)
 {
     prepareOutputs(call);
     Terminal terminal(call.progress);

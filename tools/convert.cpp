@@ -8,7 +8,7 @@
 #include "write_result.h"
 
 #include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/read_vdb.h"
 #include "molsurf/io/write_vdb.h"
@@ -20,7 +20,7 @@ namespace molsurf::tool
 namespace
 {
 
-StoredSurface restore(const Call& call, const VdbFile& file, Terminal& terminal)
+StoredSurface restore(const CommandLine& call, const VdbFile& file, Terminal& terminal)
 {
     try {
         return storedSurface(file.grids, file.metadata, call.options, call.atoms.coloring,
@@ -34,7 +34,7 @@ StoredSurface restore(const Call& call, const VdbFile& file, Terminal& terminal)
 }
 
 // The file's grids with the new colours in the place of the old ones, or at the end.
-void writeRecolored(const Call& call, const VdbFile& file, const StoredSurface& surface,
+void writeRecolored(const CommandLine& call, const VdbFile& file, const StoredSurface& surface,
                     OutputFile& out)
 {
     openvdb::GridCPtrVec grids;
@@ -55,7 +55,7 @@ void writeRecolored(const Call& call, const VdbFile& file, const StoredSurface& 
 
 } // namespace
 
-int convert(const Call& asked, Clock::time_point start)
+int convert(const CommandLine& asked, Clock::time_point start)
 {
     prepareOutputs(asked);
     Terminal terminal(asked.progress);
@@ -80,7 +80,7 @@ int convert(const Call& asked, Clock::time_point start)
     });
     if (asked.dryRun) {
         terminal.erase();
-        say(costText(cost));
+        printLine(costText(cost));
         return 0;
     }
     terminal.limitTo(cost.seconds, asked.hours);
@@ -90,7 +90,7 @@ int convert(const Call& asked, Clock::time_point start)
     lapStart = Clock::now();
     StoredSurface surface = restore(asked, file, terminal);
     terminal.erase();
-    Call call = asked;
+    CommandLine call = asked;
     call.options.color = surface.options.color;
     call.scene.scale = surface.scale;
     Report& report = surface.result.report;
@@ -100,7 +100,7 @@ int convert(const Call& asked, Clock::time_point start)
     for (std::string& warning : report.warnings) warning = withOptionNames(warning);
     report.seconds = {{"read", readSeconds}, {"mesh", secondsSince(lapStart)}};
     if (!call.quiet)
-        for (const std::string& warning : report.warnings) say("warning: " + warning);
+        for (const std::string& warning : report.warnings) printLine("warning: " + warning);
 
     writeOutputs(
         call, terminal,
@@ -114,9 +114,9 @@ int convert(const Call& asked, Clock::time_point start)
     terminal.erase();
     if (call.verbose) sayTimes(report);
     if (!call.quiet) {
-        say(formatted("area %.1f Å^2, volume %.1f Å^3, %zu triangles, %.2f s", report.surface.area,
-                      report.surface.volume, report.surface.triangles,
-                      report.seconds.back().second));
+        printLine(formatted("area %.1f Å^2, volume %.1f Å^3, %zu triangles, %.2f s",
+                            report.surface.area, report.surface.volume, report.surface.triangles,
+                            report.seconds.back().second));
     }
     return 0;
 }

@@ -8,7 +8,7 @@
 
 #include "molsurf/color/legend.h"
 #include "molsurf/color/palette.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
 #include "molsurf/picture/atom_model.h"
@@ -26,21 +26,21 @@
 namespace molsurf::tool
 {
 
-openvdb::Vec3d originOf(const Call& call)
+openvdb::Vec3d originOf(const CommandLine& call)
 {
     return call.center ? call.scene.center : openvdb::Vec3d(0.0);
 }
 
-Mesh drawnBodies(const Call& call, const BallSet& atoms, const Mesh& bodies, const Mesh& surface,
-                 Terminal& terminal)
+Mesh drawnBodies(const CommandLine& call, const BallSet& atoms, const Mesh& bodies,
+                 const Mesh& surface, Terminal& terminal)
 {
     const std::vector<PartRange> parts = partRanges(bodies, "");
     const std::size_t count =
         std::min(call.shownPockets, bodies.triangles.empty() ? 0 : parts.size());
     if (count < parts.size() && count > 0 && !call.quiet && call.writes(Pixels | ColorChoices)) {
         terminal.erase();
-        say(formatted("pictures show the %d largest of %d pockets [hint: --show pockets=all]",
-                      int(count), int(parts.size())));
+        printLine(formatted("pictures show the %d largest of %d pockets [hint: --show pockets=all]",
+                            int(count), int(parts.size())));
     }
     std::vector<Color> used; // by the surface and the atoms beside it
     const ColorBy by = call.options.color;
@@ -72,7 +72,7 @@ void showBodies(const Mesh& bodies, DrawOptions& picture)
     picture.model = model;
 }
 
-std::optional<std::array<double, 2>> rangeOf(const Call& call, const BallSet& atoms,
+std::optional<std::array<double, 2>> rangeOf(const CommandLine& call, const BallSet& atoms,
                                              const Mesh& mesh, const Progress& progress)
 {
     const auto legend = legendOf(call.options.color, atoms, mesh, progress);
@@ -93,7 +93,7 @@ namespace
 {
 
 /// The call without what pictures do not show, and without atoms that the first structure has.
-Call panelCall(Call call)
+CommandLine panelCall(CommandLine call)
 {
     SurfaceOptions& options = call.options;
     options.pockets = options.ballAreas = options.contacts = options.interfaces = false;
@@ -112,7 +112,7 @@ Call panelCall(Call call)
 }
 
 /// The atoms of a panel, read or `first`, and its view; its surface is made later.
-PanelSurface readPanel(const Call& call, const Panel& what, const BallSet& first,
+PanelSurface readPanel(const CommandLine& call, const Panel& what, const BallSet& first,
                        Terminal& terminal)
 {
     PanelSurface panel{what.kind ? nameOf(*what.kind) : inputStem(what.file),
@@ -129,30 +129,30 @@ PanelSurface readPanel(const Call& call, const Panel& what, const BallSet& first
         readBalls(what.file, panelCall(call), terminal, &panel.picture, true);
     terminal.erase();
     if (!call.quiet) {
-        say(description);
+        printLine(description);
         for (const std::string& warning : balls.warnings)
-            say("warning: " + what.file + ": " + warning);
+            printLine("warning: " + what.file + ": " + warning);
     }
     panel.atoms = std::move(balls);
     return panel;
 }
 
-PanelSurface makePanel(const Call& call, const Panel& what, const BallSet& first,
+PanelSurface makePanel(const CommandLine& call, const Panel& what, const BallSet& first,
                        const std::optional<std::array<double, 2>>& range, Terminal& terminal)
 {
     PanelSurface panel = readPanel(call, what, first, terminal);
-    Call other = panelCall(call);
+    CommandLine other = panelCall(call);
     other.options = panelOptions(other.options, what);
     takeRange(range, panel.atoms);
     checkCost(panel.atoms, other.options, limitsOf(call), terminal);
-    MolecularSurface result = makePrototypes(panel.atoms, other.options, &terminal);
+    MolecularSurface result = makeUnitSurface(panel.atoms, other.options, &terminal);
     terminal.erase();
     const auto& flow = result.report.evolution;
     if (flow && !flow->converged)
         panel.unrest = panel.name + ": " + unrestText(*flow, other.options.voxel, moreSteps(call));
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings)
-            say("warning: " + panel.name + ": " + warning);
+            printLine("warning: " + panel.name + ": " + warning);
     panel.shown = shownMeshes(other, panel.atoms, result.mesh, terminal);
     panel.shown.about = aboutPage(result.report.surface.kind, other.options.voxel);
     panel.mesh = std::move(result.mesh);
@@ -169,7 +169,7 @@ SurfaceOptions panelOptions(SurfaceOptions options, const Panel& panel)
     return options;
 }
 
-std::string firstName(const Call& call)
+std::string firstName(const CommandLine& call)
 {
     const auto any = [&](const auto& such) {
         return std::any_of(call.panels.begin(), call.panels.end(), such);
@@ -182,7 +182,7 @@ std::string firstName(const Call& call)
     return joinWords(words, ", ");
 }
 
-void makePanels(const Call& call, const BallSet& first, const Mesh& mesh, Terminal& terminal)
+void makePanels(const CommandLine& call, const BallSet& first, const Mesh& mesh, Terminal& terminal)
 {
     const auto range = rangeOf(call, first, mesh, terminal);
     for (const Panel& panel : call.panels) {
@@ -202,13 +202,13 @@ int endOf(const std::vector<PanelSurface>& panels)
     bool rest = true;
     for (const PanelSurface& panel : panels) {
         if (panel.unrest.empty()) continue;
-        say(panel.unrest);
+        printLine(panel.unrest);
         rest = false;
     }
     return rest ? 0 : notConvergedStatus;
 }
 
-DrawnSurface drawnSurface(const Call& call, const BallSet& atoms, const Mesh& mesh,
+DrawnSurface drawnSurface(const CommandLine& call, const BallSet& atoms, const Mesh& mesh,
                           const ShownMeshes& shown, double turn, bool quick)
 {
     DrawnSurface drawn{atoms, mesh, call.options, call.picture};
@@ -221,7 +221,7 @@ DrawnSurface drawnSurface(const Call& call, const BallSet& atoms, const Mesh& me
     return drawn;
 }
 
-std::vector<DrawnSurface> drawnPanels(const Call& call, const DrawnSurface& first)
+std::vector<DrawnSurface> drawnPanels(const CommandLine& call, const DrawnSurface& first)
 {
     std::vector<DrawnSurface> all = {first};
     if (call.panels.empty() || !call.panelSurfaces) return all;

@@ -34,30 +34,32 @@ struct PanelSurface {
 SurfaceOptions panelOptions(SurfaceOptions options, const Panel& panel);
 
 /// The name of the first surface among its panels.
-std::string firstName(const Call& call);
+std::string firstName(const CommandLine& call);
 
 /// The point that is 0 in meshes.
-openvdb::Vec3d originOf(const Call& call);
+openvdb::Vec3d originOf(const CommandLine& call);
 
 /// The bodies of the largest pockets, as many as the call shows, in colours that neither the
 /// surface nor the atoms have. Says how many are left out.
 /// @param[in] bodies  of all pockets, the largest first
-Mesh drawnBodies(const Call& call, const BallSet& atoms, const Mesh& bodies, const Mesh& surface,
-                 Terminal& terminal);
+Mesh drawnBodies(const CommandLine& call, const BallSet& atoms, const Mesh& bodies,
+                 const Mesh& surface, Terminal& terminal);
 
 /// Shows bodies among the atoms of a picture.
 void showBodies(const Mesh& bodies, DrawOptions& picture);
 
 /// The values at the ends of the colours; none: they are no values.
-std::optional<std::array<double, 2>> rangeOf(const Call& call, const BallSet& atoms,
+std::optional<std::array<double, 2>> rangeOf(const CommandLine& call, const BallSet& atoms,
                                              const Mesh& mesh, const Progress& progress);
 
 /// Gives atoms the range of others.
 void takeRange(const std::optional<std::array<double, 2>>& range, BallSet& atoms);
 
-/// Fills Call::panelSurfaces, in their order, with the colours of the first structure's values.
+/// Fills CommandLine::panelSurfaces, in their order, with the colours of the first structure's
+/// values.
 /// @throws Error as the first structure does, with the name of the panel
-void makePanels(const Call& call, const BallSet& first, const Mesh& mesh, Terminal& terminal);
+void makePanels(const CommandLine& call, const BallSet& first, const Mesh& mesh,
+                Terminal& terminal);
 
 /// The exit status for panels; says which of them are not at rest.
 int endOf(const std::vector<PanelSurface>& panels);
@@ -65,10 +67,10 @@ int endOf(const std::vector<PanelSurface>& panels);
 /// The surface of a call as pictures show it.
 /// @param[in] turn   beside that of the call [degree]
 /// @param[in] quick  as DrawOptions::quick
-DrawnSurface drawnSurface(const Call& call, const BallSet& atoms, const Mesh& mesh,
+DrawnSurface drawnSurface(const CommandLine& call, const BallSet& atoms, const Mesh& mesh,
                           const ShownMeshes& shown, double turn = 0.0, bool quick = false);
 
 /// The same with the panels of the call behind it.
-std::vector<DrawnSurface> drawnPanels(const Call& call, const DrawnSurface& first);
+std::vector<DrawnSurface> drawnPanels(const CommandLine& call, const DrawnSurface& first);
 
 } // namespace molsurf::tool

@@ -3,8 +3,8 @@
 
 #include "outputs.h"
 
-#include "molsurf/core/may_pass.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 
 #include <fcntl.h>

@@ -10,7 +10,7 @@
 #include "sidecar.h"
 #include "write_result.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/frame_table.h"
 #include "molsurf/io/read_vdb.h"
@@ -44,9 +44,9 @@ bool ofPore(const Output& output)
 }
 
 // The call of one frame: "name.vdb" becomes "name.0001.vdb".
-Call callOf(const Call& call, std::size_t file, int frame)
+CommandLine callOf(const CommandLine& call, std::size_t file, int frame)
 {
-    Call one = call;
+    CommandLine one = call;
     one.frame = frame;
     one.quiet = true;
     one.outputs.clear();
@@ -70,7 +70,7 @@ Call callOf(const Call& call, std::size_t file, int frame)
     return one;
 }
 
-std::string tableOf(const Call& call)
+std::string tableOf(const CommandLine& call)
 {
     for (const Output& output : call.outputs)
         if (output.holds(FrameRows)) return output.path;
@@ -99,7 +99,7 @@ std::pair<std::string, std::int64_t> madeOf(const Output& output)
 
 // Whether all files of a frame are there, by the metadata of a grid or the row in the table with
 // this frame and these options. It is an error if they are of others.
-bool isDone(const Call& one, const std::string& options, const FrameTable& table,
+bool isDone(const CommandLine& one, const std::string& options, const FrameTable& table,
             const std::string& tableName, std::size_t file)
 {
     std::size_t files = 0, there = 0;
@@ -143,7 +143,7 @@ std::string describe(const FrameRow& row, const Report& report)
 }
 
 /// Adds the velocities of the grids, in units of the scene, and of the vertices, in Å.
-void addVelocities(const Call& call, const BallSet& selection,
+void addVelocities(const CommandLine& call, const BallSet& selection,
                    const std::vector<openvdb::Vec3f>& displacement, const Progress& progress,
                    MolecularSurface& result)
 {
@@ -163,7 +163,7 @@ void addVelocities(const Call& call, const BallSet& selection,
 class OpenShare
 {
 public:
-    explicit OpenShare(const Call& call)
+    explicit OpenShare(const CommandLine& call)
     {
         for (const Output& output : call.outputs) {
             if (!output.holds(Shares)) continue;
@@ -212,7 +212,7 @@ private:
 class FrameRun
 {
 public:
-    FrameRun(const Call& asked, Terminal& terminal)
+    FrameRun(const CommandLine& asked, Terminal& terminal)
         : call_(asked), terminal_(terminal), source_(call_.input, call_.trajectory, call_.frames,
                                                      call_.atoms, probeOf(call_.options), terminal),
           moves_(hasField(call_.options.fields, "v")), tableName_(tableOf(call_)), share_(call_)
@@ -262,16 +262,16 @@ public:
     void introduce()
     {
         if (call_.quiet) return;
-        say(source_.description());
+        printLine(source_.description());
         const BallSet& first = source_.balls(0);
         std::vector<std::string> warnings = call_.warnings;
         warnings.insert(warnings.end(), first.warnings.begin(), first.warnings.end());
         const bool parts = call_.options.ofParts();
         if (moves_ && parts) warnings.push_back("no grid v: groups have surfaces of their own");
-        for (const std::string& warning : warnings) say("warning: " + warning);
+        for (const std::string& warning : warnings) printLine("warning: " + warning);
         const auto kept = std::count(done_.begin(), done_.end(), true);
-        say(counted(size(), "frame", "frames") +
-            (kept > 0 ? ", " + std::to_string(kept) + " done before" : ""));
+        printLine(counted(size(), "frame", "frames") +
+                  (kept > 0 ? ", " + std::to_string(kept) + " done before" : ""));
     }
 
     /// Builds frame i, or takes over what is known of it.
@@ -302,15 +302,16 @@ public:
         if (!files.empty()) commitUndisturbed(files);
         if (!call_.quiet) {
             if (!changes_.empty())
-                say("the topology is another than that before in frames " + changes_);
-            for (const std::string& line : leftOutOf(calls_.back())) say(line);
-            say(counted(size(), "frame", "frames") + formatted(", %.2f s", secondsSince(start)));
+                printLine("the topology is another than that before in frames " + changes_);
+            for (const std::string& line : leftOutOf(calls_.back())) printLine(line);
+            printLine(counted(size(), "frame", "frames") +
+                      formatted(", %.2f s", secondsSince(start)));
         }
         if (!closed_.empty())
-            say("no pore in frames " + joinWords(closed_, ", ") + " [" + whyClosed_ + "]");
+            printLine("no pore in frames " + joinWords(closed_, ", ") + " [" + whyClosed_ + "]");
         if (creeping_ == 0) return 0;
-        say("not converged: " + counted(creeping_, "frame", "frames") +
-            "; the files are written [hint: a larger --tolerance or a smaller --voxel]");
+        printLine("not converged: " + counted(creeping_, "frame", "frames") +
+                  "; the files are written [hint: a larger --tolerance or a smaller --voxel]");
         return notConvergedStatus;
     }
 
@@ -321,7 +322,8 @@ private:
     std::unique_ptr<FrameSource> pictured(const std::string& select)
     {
         if (call_.input == "-")
-            misuse("--frames reads INPUT again for the atoms of pictures, expected a file, got -");
+            usageError(
+                "--frames reads INPUT again for the atoms of pictures, expected a file, got -");
         auto source = std::make_unique<FrameSource>(call_.input, call_.trajectory, call_.frames,
                                                     picturedAtoms(call_, select), 0.0, terminal_);
         if (call_.updateSelections) source->update();
@@ -394,7 +396,7 @@ private:
     void make(std::size_t i)
     {
         const Clock::time_point start = Clock::now();
-        Companions table;
+        ExtraOutputs table;
         if (!tableName_.empty()) table.temporaries.push_back(temporaryName(tableName_));
         for (const auto& [output, file] : areas_)
             table.temporaries.push_back(temporaryName(output.path));
@@ -443,10 +445,11 @@ private:
             changes_ += (changes_.empty() ? "" : ", ") + std::to_string(row.frame);
         euler_ = row.euler;
         const Superposition* motion = source_.superposed(i);
-        if (!call_.quiet) say(describe(row, report) + (motion ? "; " + describe(*motion) : ""));
+        if (!call_.quiet)
+            printLine(describe(row, report) + (motion ? "; " + describe(*motion) : ""));
     }
 
-    Call call_;
+    CommandLine call_;
     Terminal& terminal_;
     FrameSource source_;
     std::vector<std::unique_ptr<FrameSource>> shown_; // of each --show
@@ -463,7 +466,7 @@ private:
     std::vector<AreaFile> areas_; // of all frames
     std::vector<std::shared_ptr<Film>> films_;
     std::optional<std::array<double, 2>> range_; // of values, as the first frame has it
-    std::vector<Call> calls_;
+    std::vector<CommandLine> calls_;
     std::vector<bool> done_;
     std::size_t creeping_ = 0;
     std::vector<std::string> closed_; // frames without a pore
@@ -474,7 +477,7 @@ private:
 
 } // namespace
 
-int frames(const Call& call, Clock::time_point start)
+int frames(const CommandLine& call, Clock::time_point start)
 {
     Terminal terminal(call.progress);
     terminal.update("read", 0.0);

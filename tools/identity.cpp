@@ -37,7 +37,7 @@ bool changesResults(const Option& option, Verb verb)
 
 } // namespace
 
-std::string optionsLine(const Call& call)
+std::string optionsLine(const CommandLine& call)
 {
     std::string line;
     for (const OptionGroup& group : optionTable()) {
@@ -53,7 +53,7 @@ std::string optionsLine(const Call& call)
     return line;
 }
 
-std::string identityOf(const Call& call)
+std::string identityOf(const CommandLine& call)
 {
     return sha256OfText(MOLSURF_VERSION "\n" + optionsLine(call));
 }
@@ -69,7 +69,7 @@ std::string sha256OfInput(const std::string& path, std::size_t maxBytes)
     }
 }
 
-std::optional<int> statusOfExisting(Call& call)
+std::optional<int> statusOfExisting(CommandLine& call)
 {
     std::error_code missing;
     const auto report = std::find_if(call.outputs.begin(), call.outputs.end(),

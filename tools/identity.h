@@ -15,10 +15,10 @@ namespace molsurf::tool
 {
 
 /// The options that results depend on, as they were given, with the hashes of files that they name.
-std::string optionsLine(const Call& call);
+std::string optionsLine(const CommandLine& call);
 
 /// The SHA-256 of the version and the options.
-std::string identityOf(const Call& call);
+std::string identityOf(const CommandLine& call);
 
 /// The SHA-256 of the content of an input; empty for standard input, pipes, and what cannot be
 /// read, as its reader will say.
@@ -30,6 +30,6 @@ std::string sha256OfInput(const std::string& path, std::size_t maxBytes);
 /// report may be replaced.
 /// @param[in,out] call  has a report among its outputs; it gets `force` if there is a report and
 ///                      the run is to be made, so that its files are replaced
-std::optional<int> statusOfExisting(Call& call);
+std::optional<int> statusOfExisting(CommandLine& call);
 
 } // namespace molsurf::tool

@@ -3,7 +3,7 @@
 
 #include "cli/option_table.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/archive.h"
 #include "molsurf/structure/load_text.h"
@@ -66,7 +66,7 @@ void failIfStream(const std::string& path, const std::string& expected)
                     displayName(path) + ": is a pipe or a device, expected " + expected);
 }
 
-InputFiles::InputFiles(const Call& call)
+InputFiles::InputFiles(const CommandLine& call)
 {
     for (const std::string& path : call.inputs) add(path);
     add(call.input);

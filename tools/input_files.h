@@ -30,7 +30,7 @@ void failIfStream(const std::string& path, const std::string& expected);
 class InputFiles
 {
 public:
-    explicit InputFiles(const Call& call);
+    explicit InputFiles(const CommandLine& call);
 
     void add(const std::string& path);
 

@@ -17,9 +17,9 @@
 namespace molsurf::tool
 {
 
-void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std::string>& paths,
-                 const std::string& id, bool meshed, Terminal& terminal, Clock::time_point start,
-                 Report& report)
+void mergeBricks(const CommandLine& call, const BrickPlan& plan,
+                 const std::vector<std::string>& paths, const std::string& id, bool meshed,
+                 Terminal& terminal, Clock::time_point start, Report& report)
 {
     terminal.update("merge", 0.0);
     const MergedBricks merged(paths, id, plan, call.options, meshed);
@@ -41,11 +41,11 @@ void mergeBricks(const Call& call, const BrickPlan& plan, const std::vector<std:
     terminal.erase();
 }
 
-int merge(const Call& call, Clock::time_point start)
+int merge(const CommandLine& call, Clock::time_point start)
 {
     failIfStream(call.input, "the file of a plan");
     const PlanManifest manifest = readManifest(call.input);
-    Call build = callOf(manifest, call.input, PlanFiles::Hashes);
+    CommandLine build = callOf(manifest, call.input, PlanFiles::Hashes);
     build.outputs = call.outputs;
     build.force = call.force;
     build.quiet = call.quiet;
@@ -63,8 +63,8 @@ int merge(const Call& call, Clock::time_point start)
                 report);
     if (call.verbose) sayTimes(report);
     if (!call.quiet) {
-        for (const std::string& warning : report.warnings) say("warning: " + warning);
-        say(summary(report));
+        for (const std::string& warning : report.warnings) printLine("warning: " + warning);
+        printLine(summary(report));
     }
     return endOf(report, "bricks plan --steps");
 }

@@ -9,7 +9,7 @@
 #include "sidecar.h"
 #include "stop.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/temporary_file.h"
@@ -55,7 +55,7 @@ void stopIfAsked()
     if (stopRequested()) throw Cancelled();
 }
 
-void beginReport(const Call& call, Report& report)
+void beginReport(const CommandLine& call, Report& report)
 {
     report.version = MOLSURF_VERSION;
     report.commit = commitHash;
@@ -72,7 +72,7 @@ void beginReport(const Call& call, Report& report)
         int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
-void warnOfPaint(const Call& call, const Mesh& mesh, Report& report)
+void warnOfPaint(const CommandLine& call, const Mesh& mesh, Report& report)
 {
     if (!call.writes(Paint)) return;
     const std::size_t colors = colorsIn(mesh);
@@ -137,7 +137,7 @@ std::string unrestText(const EvolutionReport& evolution, double voxel, const std
         steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel, hint.c_str());
 }
 
-void checkOutput(const Call& call, const Output& output)
+void checkOutput(const CommandLine& call, const Output& output)
 {
     const bool first = output.holds(Numbered) && output.pocket == 0; // their number is not known
     const std::string path = first ? numberedPath(output, 1) : output.path;
@@ -147,7 +147,7 @@ void checkOutput(const Call& call, const Output& output)
     if (output.holds(Moving)) checkFilm(output.path);
 }
 
-void prepareOutputs(const Call& call, const std::vector<std::string>& more)
+void prepareOutputs(const CommandLine& call, const std::vector<std::string>& more)
 {
     std::vector<std::string> temporaries = more;
     for (const Output& output : call.outputs) {
@@ -169,7 +169,7 @@ void commitUndisturbed(const OutputFiles& files)
     commit(all);
 }
 
-void recoverOutputs(const Call& call)
+void recoverOutputs(const CommandLine& call)
 {
     if (call.dryRun) return;
     std::set<std::string> folders;
@@ -180,7 +180,7 @@ void recoverOutputs(const Call& call)
     for (const std::string& folder : folders) recover(folder);
 }
 
-void writeOutputs(const Call& call, Terminal& terminal,
+void writeOutputs(const CommandLine& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
                   const std::function<void(double)>& timed, bool sideBySide,
                   const std::function<void(OutputFiles&)>& addMore)

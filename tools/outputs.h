@@ -34,10 +34,10 @@ std::size_t peakMemory();
 void stopIfAsked();
 
 /// Says which files have colours that slicers cannot paint.
-void warnOfPaint(const Call& call, const Mesh& mesh, Report& report);
+void warnOfPaint(const CommandLine& call, const Mesh& mesh, Report& report);
 
 /// Fills in what every report begins with: version, command, input and threads.
-void beginReport(const Call& call, Report& report);
+void beginReport(const CommandLine& call, Report& report);
 
 /// Fills in what every report ends with, when its files are written: their time, the total and the
 /// memory.
@@ -62,13 +62,13 @@ std::string unrestText(const EvolutionReport& evolution, double voxel, const std
 /// Finds out whether an output can be written.
 /// @throws Error(ErrorKind::Output) as checkWritable(), if the call reads that file, or if a
 ///         library is missing
-void checkOutput(const Call& call, const Output& output);
+void checkOutput(const CommandLine& call, const Output& output);
 
 /// Finds out whether all outputs can be written, and has them cleaned up after a signal. To be
 /// called before any work.
 /// @throws Error(ErrorKind::Output) as checkOutput()
 /// @param[in] more  further temporary files and folders to be removed then
-void prepareOutputs(const Call& call, const std::vector<std::string>& more = {});
+void prepareOutputs(const CommandLine& call, const std::vector<std::string>& more = {});
 
 /// Files that are being written.
 using OutputFiles = std::vector<std::unique_ptr<OutputFile>>;
@@ -79,7 +79,7 @@ void commitUndisturbed(const OutputFiles& files);
 
 /// Ends what killed runs have begun in the folders that a call writes to. To be called first.
 /// @throws Error(ErrorKind::Output) as molsurf::recover()
-void recoverOutputs(const Call& call);
+void recoverOutputs(const CommandLine& call);
 
 /// Writes all files, and only when every one is complete puts them in their place. The report comes
 /// last, because it has the times of the others; streams, which cannot be taken back, only
@@ -90,7 +90,7 @@ void recoverOutputs(const Call& call);
 ///                      written or else at the end
 /// @param[in] sideBySide  files other than reports are written at the same time
 /// @param[in] addMore   adds further files, complete, at the end; may be empty
-void writeOutputs(const Call& call, Terminal& terminal,
+void writeOutputs(const CommandLine& call, Terminal& terminal,
                   const std::function<void(const Output&, OutputFile&)>& writeOne,
                   const std::function<void(double)>& timed, bool sideBySide = true,
                   const std::function<void(OutputFiles&)>& addMore = {});

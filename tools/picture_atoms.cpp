@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "picture_atoms.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/selection/ball_names.h"
@@ -24,7 +24,7 @@ openvdb::Vec3d middleOf(const BallSet& atoms)
 
 } // namespace
 
-SelectOptions picturedAtoms(const Call& call, const std::string& select)
+SelectOptions picturedAtoms(const CommandLine& call, const std::string& select)
 {
     SelectOptions options;
     options.select = select;
@@ -73,7 +73,8 @@ void addNotes(const std::vector<NoteText>& notes,
     }
 }
 
-void lookAt(const Call& call, const BallSet& atoms, const BallSet& surface, DrawOptions& picture)
+void lookAt(const CommandLine& call, const BallSet& atoms, const BallSet& surface,
+            DrawOptions& picture)
 {
     constexpr double least = 0.1; // [Å]
     const openvdb::Vec3d way = middleOf(atoms) - middleOf(surface);

@@ -19,7 +19,7 @@ namespace molsurf::tool
 
 /// How they are chosen: ligands and ions are among them; model, copies and alternate locations are
 /// the surface's.
-SelectOptions picturedAtoms(const Call& call, const std::string& select);
+SelectOptions picturedAtoms(const CommandLine& call, const std::string& select);
 
 /// Whether a note names no atoms: then it belongs to the first structure of a picture.
 bool isOfPlaces(const NoteText& note);
@@ -33,6 +33,7 @@ void addNotes(const std::vector<NoteText>& notes,
 
 /// Looks at the side of the surface where the atoms of --view lie.
 /// @throws Error(ErrorKind::Input) if they lie on no side
-void lookAt(const Call& call, const BallSet& atoms, const BallSet& surface, DrawOptions& picture);
+void lookAt(const CommandLine& call, const BallSet& atoms, const BallSet& surface,
+            DrawOptions& picture);
 
 } // namespace molsurf::tool

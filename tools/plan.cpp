@@ -8,7 +8,7 @@
 #include "molsurf/bricks/atoms_file.h"
 #include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/bricks/plan_file.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/temporary_file.h"
 
@@ -41,7 +41,7 @@ namespace
 {
 
 // A path as it is found from the folder of the plan, wherever the bricks are computed.
-std::string fromPlan(const Call& call, const std::string& path)
+std::string fromPlan(const CommandLine& call, const std::string& path)
 {
     namespace fs = std::filesystem;
     if (fs::path(path).is_absolute()) return path;
@@ -52,7 +52,7 @@ std::string fromPlan(const Call& call, const std::string& path)
 }
 
 // The options that say what surface is wanted; those that name files do so from the plan.
-GivenOptions planned(const Call& call)
+GivenOptions planned(const CommandLine& call)
 {
     GivenOptions options;
     for (const auto& [name, values] : call.given) {
@@ -71,7 +71,7 @@ GivenOptions planned(const Call& call)
 
 } // namespace
 
-int plan(Call call)
+int plan(CommandLine call)
 {
     std::vector<std::string> planFiles = {call.input};
     for (const OptionFile& file : filesOf(call.verb, call.given))
@@ -107,9 +107,9 @@ int plan(Call call)
     writeManifest(manifest, *files[1]);
     commitUndisturbed(files);
     if (!call.quiet) {
-        for (const std::string& line : describePlan(manifest.plan)) say(line);
+        for (const std::string& line : describePlan(manifest.plan)) printLine(line);
         if (manifest.plan.bricks.size() < std::size_t(call.bricks))
-            say("fewer bricks than asked for: smaller ones would be little but overlap");
+            printLine("fewer bricks than asked for: smaller ones would be little but overlap");
     }
     return 0;
 }

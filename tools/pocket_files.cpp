@@ -21,12 +21,12 @@ constexpr std::array<const char*, 2> bodyFields = {"pocket_id", "pocket_room"};
 
 } // namespace
 
-bool wantsBodies(const Call& call)
+bool wantsBodies(const CommandLine& call)
 {
     return call.showsPockets() || call.writes(Numbered);
 }
 
-SurfaceOptions withBodies(const Call& call)
+SurfaceOptions withBodies(const CommandLine& call)
 {
     SurfaceOptions options = call.options;
     if (!wantsBodies(call) || !options.grid) return options; // without grids it has both
@@ -35,7 +35,7 @@ SurfaceOptions withBodies(const Call& call)
     return options;
 }
 
-Mesh takeBodies(const Call& call, const Progress& progress, MolecularSurface& result)
+Mesh takeBodies(const CommandLine& call, const Progress& progress, MolecularSurface& result)
 {
     if (!wantsBodies(call)) return {};
     Mesh bodies = pocketBodies(result, progress);
@@ -57,7 +57,7 @@ std::string numberedPath(const Output& output, std::size_t number)
     return path.replace(plural, 1, std::to_string(number));
 }
 
-void numberOutputs(std::size_t count, Call& call)
+void numberOutputs(std::size_t count, CommandLine& call)
 {
     std::vector<Output> outputs;
     for (const Output& output : call.outputs) {

@@ -12,18 +12,18 @@ namespace molsurf::tool
 {
 
 /// Whether files or pictures of a call have them.
-bool wantsBodies(const Call& call);
+bool wantsBodies(const CommandLine& call);
 
 /// The options with the fields that bodies are made of.
-SurfaceOptions withBodies(const Call& call);
+SurfaceOptions withBodies(const CommandLine& call);
 
 /// Makes the bodies, and drops the fields that were wanted only for them.
 /// @param[in,out] result  by withBodies()
-Mesh takeBodies(const Call& call, const Progress& progress, MolecularSurface& result);
+Mesh takeBodies(const CommandLine& call, const Progress& progress, MolecularSurface& result);
 
 /// Puts a file for each pocket, NAME.pocket1.ply, in the place of NAME.pockets.ply.
 /// @throws Error(ErrorKind::Output) if another output has that name
-void numberOutputs(std::size_t count, Call& call);
+void numberOutputs(std::size_t count, CommandLine& call);
 
 /// The name of such a file.
 std::string numberedPath(const Output& output, std::size_t number);

@@ -6,7 +6,7 @@
 #include "terminal.h"
 #include "verbs.h"
 
-#include "molsurf/core/may_pass.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/progress.h"
 
@@ -53,17 +53,17 @@ int runProgram(const std::function<int()>& perform,
         return status;
     } catch (const NoReader& e) {
         endByPipe();
-        say("error: " + textOf(e));
+        printLine("error: " + textOf(e));
         return statusOf(e);
     } catch (const Error& e) {
-        say("error: " + textOf(e));
+        printLine("error: " + textOf(e));
         return statusOf(e);
     } catch (const Cancelled&) {
-        say("interrupted");
+        printLine("interrupted");
         return interruptedStatus;
     } catch (const std::exception& e) {
         const Ending ending = endingOf(e);
-        say(ending.text);
+        printLine(ending.text);
         return ending.status;
     }
 }

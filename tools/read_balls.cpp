@@ -36,7 +36,7 @@ bool isThere(bool partly, const F& f)
 
 } // namespace
 
-DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& terminal,
+DescribedBalls readBalls(const std::string& path, const CommandLine& call, Terminal& terminal,
                          DrawOptions* picture, bool partly)
 {
     terminal.update("read", 0.0);
@@ -82,7 +82,7 @@ DescribedBalls readBalls(const std::string& path, const Call& call, Terminal& te
     return {std::move(balls), std::move(description), anchors, motion};
 }
 
-BallSet readBalls(Call& call, Terminal& terminal, Report& report)
+BallSet readBalls(CommandLine& call, Terminal& terminal, Report& report)
 {
     const Clock::time_point start = Clock::now();
     auto [balls, description, anchors, motion] =
@@ -94,8 +94,8 @@ BallSet readBalls(Call& call, Terminal& terminal, Report& report)
     report.seconds.emplace_back("read", secondsSince(start));
     terminal.erase();
     if (!call.quiet) {
-        say(description);
-        for (const std::string& warning : report.warnings) say("warning: " + warning);
+        printLine(description);
+        for (const std::string& warning : report.warnings) printLine("warning: " + warning);
     }
     stopIfAsked();
     if (balls.charges && call.writes(Solver)) call.apbsGrid = solverGrid(call.apbsInput, balls);

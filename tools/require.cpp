@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "require.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/mesh_shape.h"

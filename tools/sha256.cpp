@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "sha256.h"
 
-#include "molsurf/core/may_pass.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/load_text.h"
 

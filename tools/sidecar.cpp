@@ -16,7 +16,7 @@ namespace molsurf::tool
 
 namespace fs = std::filesystem;
 
-void addSidecars(Call& call)
+void addSidecars(CommandLine& call)
 {
     std::vector<Output> sidecars;
     for (const Output& output : call.outputs) {
@@ -51,7 +51,7 @@ bool isFilm(const Output& output)
     return output.holds(Stage) && fs::path(output.beside).extension() == ".usda";
 }
 
-bool mayReplace(const Call& call, const Output& output)
+bool mayReplace(const CommandLine& call, const Output& output)
 {
     if (call.force) return true;
     if (!output.holds(Stage) || !frameName(output.beside).frame) return false;
@@ -63,13 +63,13 @@ namespace
 
 constexpr double defaultRate = 24.0; // frames a second
 
-double rateOf(const Call& call)
+double rateOf(const CommandLine& call)
 {
     return call.fps > 0.0 ? call.fps : defaultRate;
 }
 
 /// The frames that a .usda shows.
-FrameFiles framesOf(const Call& call, const Output& output)
+FrameFiles framesOf(const CommandLine& call, const Output& output)
 {
     return framesBeside(output.beside, call.frame > 0 ? optionsDigest(call) : "",
                         *call.frameOptions);
@@ -77,7 +77,7 @@ FrameFiles framesOf(const Call& call, const Output& output)
 
 } // namespace
 
-UsdVolume usdVolume(const Call& call, const Output& output)
+UsdVolume usdVolume(const CommandLine& call, const Output& output)
 {
     const std::string vdb = output.beside.empty()
                                 ? fs::path(output.path).replace_extension(".vdb").string()
@@ -96,7 +96,8 @@ UsdVolume usdVolume(const Call& call, const Output& output)
     return volume;
 }
 
-void writeMeshStage(const Call& call, const Output& output, const Mesh& mesh, OutputFile& file)
+void writeMeshStage(const CommandLine& call, const Output& output, const Mesh& mesh,
+                    OutputFile& file)
 {
     const std::string frame = isFilm(output) ? output.beside : output.path;
     UsdScene scene{fs::path(output.path).stem().string(),
@@ -116,7 +117,7 @@ void writeMeshStage(const Call& call, const Output& output, const Mesh& mesh, Ou
         writeUsdaMesh(mesh, scene, file);
 }
 
-std::vector<std::string> leftOutOf(const Call& call)
+std::vector<std::string> leftOutOf(const CommandLine& call)
 {
     std::vector<std::string> lines;
     for (const Output& output : call.outputs) {

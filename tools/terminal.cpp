@@ -5,7 +5,7 @@
 #include "stop.h"
 
 #include "molsurf/core/printable.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 
 #include <unistd.h>
@@ -59,7 +59,7 @@ std::string withOptionNames(const std::string& message)
     return out;
 }
 
-void say(const std::string& text)
+void printLine(const std::string& text)
 {
     const std::string line = std::string(programName) + ": " + printable(withOptionNames(text));
     std::fprintf(stderr, "%s\n", line.c_str());

@@ -21,7 +21,7 @@ namespace molsurf::tool
 std::string withOptionNames(const std::string& message);
 
 /// Prints "vdb_molsurf: ..." (programName) as one line on standard error, whatever the text holds.
-void say(const std::string& text);
+void printLine(const std::string& text);
 
 /// A stage of a run, and its share of the time; the shares of a run add up to 1.
 struct StageShare {

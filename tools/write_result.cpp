@@ -72,7 +72,7 @@ struct Metadata {
 
 } // namespace
 
-openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
+openvdb::MetaMap vdbMetadata(const CommandLine& call, const Report& report)
 {
     openvdb::MetaMap map;
     Metadata to{map};
@@ -99,7 +99,7 @@ openvdb::MetaMap vdbMetadata(const Call& call, const Report& report)
 namespace
 {
 
-openvdb::GridCPtrVec gridsOf(const Call& call, const MolecularSurface& result)
+openvdb::GridCPtrVec gridsOf(const CommandLine& call, const MolecularSurface& result)
 {
     const openvdb::GridPtrVec all = result.grids();
     const openvdb::GridCPtrVec grids(all.begin(), all.end());
@@ -114,7 +114,7 @@ std::string stemOf(const std::string& path)
 
 } // namespace
 
-Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
+Table areaTable(const std::string& name, const CommandLine& call, const BallSet& atoms,
                 const MolecularSurface& result)
 {
     SurfaceOptions shown = call.options;
@@ -132,7 +132,7 @@ Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
     return table;
 }
 
-std::string optionsDigest(const Call& call)
+std::string optionsDigest(const CommandLine& call)
 {
     openvdb::MetaMap map;
     addOptions(call, map);
@@ -145,12 +145,12 @@ std::string optionsDigest(const Call& call)
 }
 
 /// Whether a file shows borders between colours that are cut: pictures find them by themselves.
-bool isCrisp(const Call& call, const Output& output)
+bool isCrisp(const CommandLine& call, const Output& output)
 {
     return output.holds(ColorChoices) || (call.crisp && !output.holds(Pixels));
 }
 
-ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh,
+ShownMeshes shownMeshes(const CommandLine& call, const BallSet& atoms, const Mesh& mesh,
                         const Progress& progress)
 {
     ShownMeshes shown;
@@ -168,7 +168,7 @@ ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh
 }
 
 struct Writing {
-    const Call& call;
+    const CommandLine& call;
     const BallSet& atoms;
     const MolecularSurface& result;
     const Output& output;
@@ -205,7 +205,8 @@ void warnOfClip(const Writing& w)
     const DrawOptions options = pictureOf(drawnOf(w), w.progress);
     const double low = chooseView(w.mesh, options).low;
     if (*options.clip > low) return;
-    say(formatted("warning: --clip %g: it cuts all of the surface away, expected more than %.1f",
+    printLine(
+        formatted("warning: --clip %g: it cuts all of the surface away, expected more than %.1f",
                   *options.clip, low));
 }
 
@@ -279,7 +280,7 @@ void writeGlb(const Writing& w, OutputFile& file)
 
 void writePage(const Writing& w, OutputFile& file)
 {
-    const Call& call = w.call;
+    const CommandLine& call = w.call;
     const std::string title = displayName(inputStem(call.input));
     std::vector<HtmlLayer> layers = {
         {w.mesh, pageOf(drawnOf(w), title, w.shown.about, w.progress)}};
@@ -573,7 +574,7 @@ std::string endingsOf(unsigned holds, unsigned verbs, const char* last)
     return words.empty() ? end : joinWords(words, ", ") + last + end;
 }
 
-void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
+void writeOutput(const CommandLine& call, const BallSet& atoms, const MolecularSurface& result,
                  const Output& output, const Progress& progress, OutputFile& file,
                  const ShownMeshes& shown)
 {

@@ -17,15 +17,15 @@ namespace molsurf::tool
 {
 
 /// Everything that is needed to make a .vdb again.
-openvdb::MetaMap vdbMetadata(const Call& call, const Report& report);
+openvdb::MetaMap vdbMetadata(const CommandLine& call, const Report& report);
 
 /// Digest of all that a surface depends on but its atoms: 16 hexadecimal digits that change with
 /// any option.
-std::string optionsDigest(const Call& call);
+std::string optionsDigest(const CommandLine& call);
 
 /// A table of areas.
 /// @param[in] name  one of areaTables()
-Table areaTable(const std::string& name, const Call& call, const BallSet& atoms,
+Table areaTable(const std::string& name, const CommandLine& call, const BallSet& atoms,
                 const MolecularSurface& result);
 
 /// Borders and levels that files show of a surface besides its mesh.
@@ -42,12 +42,12 @@ struct ShownMeshes {
 /// The meshes that the files of the call show, but for `coarser`: borders are found once for all of
 /// them.
 /// @param[in] mesh  of the surface, where the atoms are
-ShownMeshes shownMeshes(const Call& call, const BallSet& atoms, const Mesh& mesh,
+ShownMeshes shownMeshes(const CommandLine& call, const BallSet& atoms, const Mesh& mesh,
                         const Progress& progress);
 
 /// Writes one output. The report must be complete but for what is timed by writing.
 /// @throws Error(ErrorKind::Output) if the file cannot be written
-void writeOutput(const Call& call, const BallSet& atoms, const MolecularSurface& result,
+void writeOutput(const CommandLine& call, const BallSet& atoms, const MolecularSurface& result,
                  const Output& output, const Progress& progress, OutputFile& file,
                  const ShownMeshes& shown = {});
 

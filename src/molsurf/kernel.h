@@ -61,7 +61,8 @@ struct EvolveOptions {
     /// this, and is below eight times this (or below 0.04) at 99.9 % of the interface [voxel], > 0.
     /// In a first step it counts for a quarter, and for a third where fronts move, with
     /// sqrt(lambda/2) above 0.11 Å. It is never meant for less than 0.001 voxel, (h/0.5 Å)^2 times
-    /// that above 0.5 Å. In closed form it is a length, 2 Å times the tolerance: judgeRest().
+    /// that above 0.5 Å. In closed form it is a length, 2 Å times the tolerance:
+    /// checkConvergence().
     double tolerance = 0.01;
 };
 

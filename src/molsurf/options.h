@@ -32,7 +32,7 @@ enum class ColorBy {
 };
 
 /// Products of a surface: its grids, its mesh, and the measures of its report.
-struct Wanted : KernelProducts {
+struct Products : KernelProducts {
     /// Definition of a pocket: the space that a small probe reaches and a large one, from outside,
     /// does not. Lengths in Å.
     struct PocketRule {
@@ -72,8 +72,10 @@ struct Wanted : KernelProducts {
     bool ofParts() const { return split || !surfaceOf.empty(); }
 };
 
+using Wanted = Products; ///< the name of Products before version 1.1
+
 /// A surface, and what is made of it.
-struct SurfaceOptions : SurfaceSpec, Wanted {
+struct SurfaceOptions : SurfaceSpec, Products {
 };
 
 /// Returns the word of the command line for a property: chain, element, mean-curvature.

@@ -153,7 +153,7 @@ CASES = {
     "flow/evolve.cpp": [
         ("a smaller --lambda", "vdb_molsurf two.xyzr --lambda 1e4 --regularizer area -o a.vdb",
          "vdb_molsurf two.xyzr --lambda 1 --regularizer area -o a.vdb")],
-    "core/words.cpp": [
+    "core/strings.cpp": [
         ("did you mean --version?", "vdb_molsurf -version", "vdb_molsurf --version"),
         ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],

@@ -4,10 +4,10 @@
 /// @file
 /// The stages up to the evolved level set, as the pipeline joins them.
 
+#include "molsurf/flow/equilibrium.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/flow/initial_surface.h"
 #include "molsurf/flow/refine.h"
-#include "molsurf/flow/rest.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/spline/spline.h"
 
@@ -41,7 +41,7 @@ inline Evolved restOf(const GaussianSum& field, SparseField psi, double epsilon,
     const Displacements ways = waysToRest(psi, {levels, slopes}, field, weights, {}, progress);
     if (last) *last = ways;
     Evolved out;
-    judgeRest(ways, options, psi.voxelSize, out.report);
+    checkConvergence(ways, options, psi.voxelSize, out.report);
     out.band.psi = copied(psi.values);
     carryLevels({levels, slopes}, bandWidthVox * psi.voxelSize, psi, progress);
     out.band.phi = std::move(psi);

@@ -6,8 +6,8 @@
 
 #include "require.h"
 
+#include "molsurf/io/file_content.h"
 #include "molsurf/io/frame_files.h"
-#include "molsurf/io/holds.h"
 #include "molsurf/picture/atom_model.h"
 #include "molsurf/settings.h"
 #include "molsurf/surface/area_tables.h"
@@ -109,7 +109,7 @@ using GivenOptions = std::map<std::string, std::vector<std::string>>;
 
 /// A command line. The settings and the first part are set by options, see optionTable(), the
 /// second part is made of them.
-struct Call : Settings, PictureSettings, FileSettings {
+struct CommandLine : Settings, PictureSettings, FileSettings {
     Verb verb = Build;
     std::string command;             ///< the command line as typed, quoted for a shell
     std::vector<std::string> inputs; ///< the words that are no options

@@ -9,7 +9,7 @@
 #include "sidecar.h"
 
 #include "molsurf/color/color_table.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/io/output_file.h"
@@ -74,17 +74,17 @@ void checkTable(const std::string& path, const std::string& word)
         typed.size() < stem.size()) {
         const std::string meant =
             findFormat(table + "." + word) ? table + "." + word : table + ".csv";
-        misuse("-o " + path + ": it would hold the whole surface [hint: -o FILE." + meant +
-               ", or a name without ." + typed + "]");
+        usageError("-o " + path + ": it would hold the whole surface [hint: -o FILE." + meant +
+                   ", or a name without ." + typed + "]");
     }
     if (word.find('.') == std::string::npos && table.size() < stem.size() &&
         std::count(areaTables().begin(), areaTables().end(), table) > 0) {
         const std::string both = table + "." + word;
         if (findFormat(both))
-            misuse("-o " + path + ": expected a name in front of ." + both + " [hint: -o FILE." +
-                   both + "]");
-        misuse("-o " + path + ": there are no " + table + " as ." + word + " [hint: -o FILE." +
-               table + ".csv, or -o FILE.json --areas " + table + "]");
+            usageError("-o " + path + ": expected a name in front of ." + both +
+                       " [hint: -o FILE." + both + "]");
+        usageError("-o " + path + ": there are no " + table + " as ." + word + " [hint: -o FILE." +
+                   table + ".csv, or -o FILE.json --areas " + table + "]");
     }
 }
 
@@ -96,18 +96,20 @@ bool isFolder(const std::string& path)
 
 /// Refuses a name that ends in no format.
 /// @param[in] word  its extension; may be empty
-[[noreturn]] void refuseName(const Call& call, const std::string& path, const std::string& word)
+[[noreturn]] void refuseName(const CommandLine& call, const std::string& path,
+                             const std::string& word)
 {
     const std::string many = call.verb == Build ? ", or vdb_molsurf batch LIST -O " + path : "";
     if (isFolder(path))
-        misuse("-o " + path + ": is a folder, expected a file [hint: -o " +
-               (fs::path(path) / "surface.ply").string() + many + "]");
+        usageError("-o " + path + ": is a folder, expected a file [hint: -o " +
+                   (fs::path(path) / "surface.ply").string() + many + "]");
     std::vector<std::string> known;
     for (const Format& format : formatTable())
         if (format.verbs & call.verb) known.push_back(format.word);
     if (word.empty())
-        misuse("-o " + path + ": expected a name whose ending says what to write [hint: -o " +
-               path + "." + known.front() + ", -o " + path + ".json; --help lists the formats]");
+        usageError("-o " + path + ": expected a name whose ending says what to write [hint: -o " +
+                   path + "." + known.front() + ", -o " + path +
+                   ".json; --help lists the formats]");
     std::string hint = didYouMean(word, known);
     for (const auto& [others, ours] :
          {std::pair("pdf jpg jpeg svg tif tiff eps webp bmp", "png"),
@@ -122,18 +124,18 @@ bool isFolder(const std::string& path)
     if (packed)
         hint = " [hint: a name without ." + word + "; a .vdb is compressed as it is written]";
     if (hint.empty()) hint = " [hint: --help lists the formats]";
-    misuse("-o " + path + ": ." + word + " is no format that " + infoOf(call.verb).name +
-           " writes" + hint);
+    usageError("-o " + path + ": ." + word + " is no format that " + infoOf(call.verb).name +
+               " writes" + hint);
 }
 
 /// The word of an output's format: a stream may have it by --format.
-std::string wordOf(const Call& call, const std::string& path)
+std::string wordOf(const CommandLine& call, const std::string& path)
 {
     if (path == "-") return call.format;
     const std::string word = endOf(path);
     const Format* known = findFormat(word);
     if (!known && isStream(path)) {
-        if (call.format.empty()) misuse("-o " + path + ": expected --format too");
+        if (call.format.empty()) usageError("-o " + path + ": expected --format too");
         return call.format;
     }
     checkTable(path, word);
@@ -141,7 +143,7 @@ std::string wordOf(const Call& call, const std::string& path)
 }
 
 /// The files that APBS reads, in a folder.
-std::vector<Output> outputsOfSolver(const Call& call, const std::string& folder)
+std::vector<Output> outputsOfSolver(const CommandLine& call, const std::string& folder)
 {
     std::vector<Output> files;
     for (const SolverFile& file : solverFiles())
@@ -150,17 +152,17 @@ std::vector<Output> outputsOfSolver(const Call& call, const std::string& folder)
 }
 
 /// The files of --output.
-std::vector<Output> outputsOf(const Call& call)
+std::vector<Output> outputsOf(const CommandLine& call)
 {
     if (call.paths.empty() && call.verb != Compare)
-        misuse("nothing to write [hint: -o FILE, for example -o surface.vdb]");
+        usageError("nothing to write [hint: -o FILE, for example -o surface.vdb]");
     std::vector<Output> outputs;
     std::set<std::string> seen;
     for (const std::string& path : call.paths) {
         std::error_code ignored;
         const std::string real =
             path == "-" ? path : fs::weakly_canonical(fs::absolute(path), ignored).string();
-        if (!seen.insert(real).second) misuse("-o " + path + " is given twice");
+        if (!seen.insert(real).second) usageError("-o " + path + " is given twice");
         if (call.forApbs && isFolder(path)) {
             for (Output& file : outputsOfSolver(call, path)) outputs.push_back(std::move(file));
             continue;
@@ -169,19 +171,19 @@ std::vector<Output> outputsOf(const Call& call)
         const Format* format = findFormat(word);
         if (!format) refuseName(call, path, word);
         if ((format->verbs & call.verb) == 0)
-            misuse("-o " + path + ": " + infoOf(call.verb).name + " writes " +
-                   endingsOf(~0u, call.verb, " or "));
+            usageError("-o " + path + ": " + infoOf(call.verb).name + " writes " +
+                       endingsOf(~0u, call.verb, " or "));
         if (format->holds & Solver)
-            misuse("-o " + path +
-                   ": expected a folder for the files of APBS [hint: --for apbs "
-                   "-o run/]");
+            usageError("-o " + path +
+                       ": expected a folder for the files of APBS [hint: --for apbs "
+                       "-o run/]");
         outputs.push_back({path, format});
     }
     return outputs;
 }
 
 /// A hint for many structures.
-const char* manyHint(const Call& call)
+const char* manyHint(const CommandLine& call)
 {
     return call.verb & (Build | Batch)
                ? " [hint: ls FILES | vdb_molsurf batch - -O DIR makes a surface of each]"
@@ -190,7 +192,7 @@ const char* manyHint(const Call& call)
 
 /// The only input.
 /// @param[in] what  "build: expected one INPUT", for example
-void takeInput(Call& call, const std::string& what, const std::string& hint)
+void takeInput(CommandLine& call, const std::string& what, const std::string& hint)
 {
     constexpr std::size_t few = 3; // that are named
     if (call.inputs.size() > 1) {
@@ -199,15 +201,15 @@ void takeInput(Call& call, const std::string& what, const std::string& hint)
             if (names.size() < few) names.push_back("'" + name + "'");
         const std::string more =
             call.inputs.size() > few ? ", ... (" + std::to_string(call.inputs.size()) + ")" : "";
-        misuse(what + ", got " + joinWords(names, ", ") + more + manyHint(call));
+        usageError(what + ", got " + joinWords(names, ", ") + more + manyHint(call));
     }
-    if (call.inputs.empty()) misuse(what + ", got none" + hint);
-    if (call.inputs[0].empty()) misuse(what + ", got an empty word" + hint);
+    if (call.inputs.empty()) usageError(what + ", got none" + hint);
+    if (call.inputs[0].empty()) usageError(what + ", got an empty word" + hint);
     call.input = call.inputs[0];
 }
 
 // Says what changes none of the surfaces that are built.
-void warnOfKinds(Call& call)
+void warnOfKinds(CommandLine& call)
 {
     for (const Setting& row : settingTable()) {
         const std::vector<SurfaceKind>& kinds = row.kinds;
@@ -224,10 +226,10 @@ void warnOfKinds(Call& call)
 
 // Sets what the files of APBS need: charges, and the solvent-excluded surface unless another one is
 // asked for. To be called before completeSurface().
-void completeSolver(Call& call)
+void completeSolver(CommandLine& call)
 {
     if (call.forApbs && !call.writes(Solver) && !call.paths.empty())
-        misuse("--for apbs: expected a folder that gets its files [hint: -o run/]");
+        usageError("--for apbs: expected a folder that gets its files [hint: -o run/]");
     if (!call.writes(Solver)) return;
     call.atoms.charges = true;
     SurfaceSpec& surface = call.options;
@@ -238,7 +240,7 @@ void completeSolver(Call& call)
 
 // Adds the fields and files that --for implies, and gives the least wall in Å, not in mm of the
 // print. To be called before completeSurface().
-void completeScene(Call& call)
+void completeScene(CommandLine& call)
 {
     if (call.scene.known() && (call.outputs.empty() || call.writes(Grids))) {
         for (const char* field : {"density", "Cd"}) {
@@ -252,17 +254,17 @@ void completeScene(Call& call)
 }
 
 // The eye looks across what is upright.
-void checkUpright(const Call& call)
+void checkUpright(const CommandLine& call)
 {
     constexpr double least = 1e-3; // sine of the angle between the two
     const openvdb::Vec3d &up = call.picture.upright, &toEye = call.picture.toEye;
     if (up.lengthSqr() > 0.0 && toEye.lengthSqr() > 0.0 &&
         up.cross(toEye).length() < least * up.length() * toEye.length())
-        misuse("--up: expected a direction across that of --view, got the same");
+        usageError("--up: expected a direction across that of --view, got the same");
 }
 
 // Puts the frames of a turntable in the place of each picture; a film holds all of its own.
-void addTurntable(Call& call)
+void addTurntable(CommandLine& call)
 {
     std::vector<Output> outputs;
     for (const Output& output : call.outputs) {
@@ -283,20 +285,20 @@ void addTurntable(Call& call)
 }
 
 // Scripts open a file that the same run writes.
-void checkScripts(const Call& call)
+void checkScripts(const CommandLine& call)
 {
     for (const Output& script : call.outputs) {
         const std::string opens = script.format->opens;
         if (!opens.empty() &&
             std::none_of(call.outputs.begin(), call.outputs.end(),
                          [&](const Output& output) { return opens == output.format->word; }))
-            misuse("-o " + script.path + ": expected -o FILE." + opens +
-                   " too, which the script opens");
+            usageError("-o " + script.path + ": expected -o FILE." + opens +
+                       " too, which the script opens");
     }
 }
 
 // Says what none of the files can hold.
-void warnOfLosses(Call& call)
+void warnOfLosses(CommandLine& call)
 {
     checkUpright(call);
     checkScripts(call);
@@ -326,13 +328,13 @@ void warnOfLosses(Call& call)
                                 ": none of the files can hold that [hint: -o .vdb]");
 }
 
-void dropField(Call& call, const char* field)
+void dropField(CommandLine& call, const char* field)
 {
     std::vector<std::string>& fields = call.options.fields;
     fields.erase(std::remove(fields.begin(), fields.end(), field), fields.end());
 }
 
-void completeFrames(Call& call)
+void completeFrames(CommandLine& call)
 {
     if (call.frames.empty() && !call.trajectory.empty()) call.frames = "all";
     if (call.frames.empty()) {
@@ -340,11 +342,11 @@ void completeFrames(Call& call)
         return;
     }
     parseFrames(call.frames);
-    if (call.trajectory == "-") misuse("--trajectory -: expected a file, it is read at random");
+    if (call.trajectory == "-") usageError("--trajectory -: expected a file, it is read at random");
 }
 
 /// Whether all that is asked for is known in closed form.
-bool asksForNumbers(const Call& call)
+bool asksForNumbers(const CommandLine& call)
 {
     const std::optional<ValueBy>& value = call.atoms.valueBy;
     const bool unit = call.atoms.bySymmetry; // a mesh of it says nothing more of the whole
@@ -359,7 +361,7 @@ bool asksForNumbers(const Call& call)
 
 // Sets what tables of areas need: their surface, names, groups, and whether there is a grid at all.
 // To be called before completeGroups().
-void completeAreas(Call& call)
+void completeAreas(CommandLine& call)
 {
     std::set<std::string> tables(call.areas.begin(), call.areas.end());
     for (const Output& output : call.outputs)
@@ -385,7 +387,7 @@ void completeAreas(Call& call)
     });
 }
 
-void completeGroups(Call& call)
+void completeGroups(CommandLine& call)
 {
     SurfaceOptions& options = call.options;
     if (!call.groupsFile.empty())
@@ -402,7 +404,7 @@ void completeGroups(Call& call)
     call.atoms.labels = options.color != ColorBy::Nothing || labels || call.writes(ColorChoices);
 }
 
-void completeInstances(Call& call)
+void completeInstances(CommandLine& call)
 {
     if (!call.atoms.instances) return;
     for (const Output& output : call.outputs)
@@ -412,7 +414,7 @@ void completeInstances(Call& call)
                 ": it holds each distinct copy once [hint: -o FILE.glb has all]");
 }
 
-void completeLevels(Call& call)
+void completeLevels(CommandLine& call)
 {
     if (call.lod.empty()) return;
     call.options.voxel = call.lod.front();
@@ -421,7 +423,7 @@ void completeLevels(Call& call)
     checkOptions(coarsest);
 }
 
-void completeSymmetry(Call& call)
+void completeSymmetry(CommandLine& call)
 {
     if (!call.atoms.bySymmetry) return;
     checkWay(BySymmetry, call.options);
@@ -432,7 +434,7 @@ void completeSymmetry(Call& call)
 
 } // namespace
 
-void completeSurface(Call& call)
+void completeSurface(CommandLine& call)
 {
     completeAreas(call);
     completeGroups(call);
@@ -450,7 +452,7 @@ void completeSurface(Call& call)
                                 ": a tolerance below half a voxel is not resolved");
 }
 
-void completeBuild(Call& call)
+void completeBuild(CommandLine& call)
 {
     takeInput(
         call, "expected one INPUT",
@@ -467,18 +469,18 @@ void completeBuild(Call& call)
     warnOfLosses(call);
 }
 
-void completeBatch(Call& call)
+void completeBatch(CommandLine& call)
 {
     takeInput(call, "batch: expected one list of structure files",
               " [hint: vdb_molsurf batch list.txt -O surfaces]");
-    if (call.forApbs) misuse("batch: --for apbs is for one structure at a time");
-    if (call.folder.empty()) misuse("batch: nowhere to write to [hint: -O DIR]");
+    if (call.forApbs) usageError("batch: --for apbs is for one structure at a time");
+    if (call.folder.empty()) usageError("batch: nowhere to write to [hint: -O DIR]");
     std::set<std::string> seen;
     for (const std::string& word : splitWords(lowered(call.formats))) {
         const Format* format = findFormat(word);
         if (!format || (format->verbs & Batch) == 0 || !seen.insert(word).second)
-            misuse("--formats: expected some of " + endingsOf(~0u, Batch) + ", got '" +
-                   call.formats + "'");
+            usageError("--formats: expected some of " + endingsOf(~0u, Batch) + ", got '" +
+                       call.formats + "'");
         call.outputs.push_back({"." + word, format});
     }
     dropField(call, "v");
@@ -488,16 +490,16 @@ void completeBatch(Call& call)
     warnOfLosses(call);
 }
 
-void completeCompare(Call& call)
+void completeCompare(CommandLine& call)
 {
     if (call.inputs.size() != 2)
-        misuse("compare: expected two surfaces, A and B, got " +
-               std::to_string(call.inputs.size()) +
-               " [hint: vdb_molsurf compare a.vdb b.ply -o difference.ply]");
+        usageError("compare: expected two surfaces, A and B, got " +
+                   std::to_string(call.inputs.size()) +
+                   " [hint: vdb_molsurf compare a.vdb b.ply -o difference.ply]");
     for (const std::string& file : call.inputs)
-        if (file.empty()) misuse("compare: expected the name of a file, got an empty word");
+        if (file.empty()) usageError("compare: expected the name of a file, got an empty word");
     if (call.inputs[0] == "-" && call.inputs[1] == "-")
-        misuse("compare: - - : standard input can be only one of the two");
+        usageError("compare: - - : standard input can be only one of the two");
     call.input = call.inputs[0];
     call.outputs = outputsOf(call);
     completeSurface(call);
@@ -505,7 +507,7 @@ void completeCompare(Call& call)
     warnOfLosses(call);
 }
 
-void completeConvert(Call& call)
+void completeConvert(CommandLine& call)
 {
     takeInput(call, "convert: expected one .vdb file",
               " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
@@ -514,43 +516,43 @@ void completeConvert(Call& call)
     warnOfLosses(call);
 }
 
-void completePlan(Call& call)
+void completePlan(CommandLine& call)
 {
     takeInput(call, "bricks plan: expected one structure file",
               " [hint: vdb_molsurf bricks plan molecule.cif -o plan.json --bricks 8]");
-    if (call.input == "-") misuse("bricks plan: expected a file, got standard input");
+    if (call.input == "-") usageError("bricks plan: expected a file, got standard input");
     if (call.paths.size() != 1)
-        misuse("bricks plan: expected one file to write [hint: -o plan.json]");
+        usageError("bricks plan: expected one file to write [hint: -o plan.json]");
     if (call.paths[0] == "-" || endOf(call.paths[0]) != "json")
-        misuse("-o " + call.paths[0] + ": expected a name that ends in .json");
+        usageError("-o " + call.paths[0] + ": expected a name that ends in .json");
     call.outputs = {{call.paths[0], findFormat("json")}};
     if (call.bricks == 0 && call.memory == 0)
-        misuse("bricks plan: expected either --bricks N or --memory SIZE");
+        usageError("bricks plan: expected either --bricks N or --memory SIZE");
     completeSurface(call);
     checkWay(InBricks, call.options);
 }
 
-void completeBrick(Call& call)
+void completeBrick(CommandLine& call)
 {
     const std::string hint = " [hint: vdb_molsurf bricks run plan.json 1]";
     if (call.inputs.size() != 2)
-        misuse("bricks run: expected a plan and the number of a brick" + hint);
+        usageError("bricks run: expected a plan and the number of a brick" + hint);
     call.input = call.inputs[0];
     const std::string& word = call.inputs[1];
     if (!parseWhole(word, call.brick) || call.brick == 0)
-        misuse("bricks run: expected a number from 1 on, got '" + word + "'" + hint);
+        usageError("bricks run: expected a number from 1 on, got '" + word + "'" + hint);
 }
 
-void completeMerge(Call& call)
+void completeMerge(CommandLine& call)
 {
     takeInput(call, "bricks merge: expected one plan",
               " [hint: vdb_molsurf bricks merge plan.json -o surface.vdb]");
     call.outputs = outputsOf(call);
 }
 
-void completeInfo(Call& call)
+void completeInfo(CommandLine& call)
 {
-    if (call.inputs.empty()) misuse("info: expected a FILE");
+    if (call.inputs.empty()) usageError("info: expected a FILE");
 }
 
 } // namespace molsurf::tool

@@ -10,16 +10,16 @@
 namespace molsurf::tool
 {
 
-void completeBuild(Call& call);
-void completeBatch(Call& call);
-void completeCompare(Call& call);
-void completeConvert(Call& call);
-void completePlan(Call& call);
-void completeBrick(Call& call);
-void completeMerge(Call& call);
-void completeInfo(Call& call);
+void completeBuild(CommandLine& call);
+void completeBatch(CommandLine& call);
+void completeCompare(CommandLine& call);
+void completeConvert(CommandLine& call);
+void completePlan(CommandLine& call);
+void completeBrick(CommandLine& call);
+void completeMerge(CommandLine& call);
+void completeInfo(CommandLine& call);
 
 /// Completes the call of a verb that builds surfaces of structures, and one that a plan keeps.
-void completeSurface(Call& call);
+void completeSurface(CommandLine& call);
 
 } // namespace molsurf::tool

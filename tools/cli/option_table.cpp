@@ -30,7 +30,7 @@ const std::vector<std::string>& areaTables()
     return all;
 }
 
-void misuse(const std::string& message)
+void usageError(const std::string& message)
 {
     throw Error(ErrorKind::Usage, message);
 }
@@ -71,7 +71,8 @@ Option setting(const std::string& name, unsigned verbs)
         o.repeats = row.type == SettingType::Rules;
         o.set = row.set;
         o.file = row.file;
-        if (row.get) o.stored = [&row](const Call& call) { return metadataOf(row.get(call)); };
+        if (row.get)
+            o.stored = [&row](const CommandLine& call) { return metadataOf(row.get(call)); };
         return o;
     }
     throw std::logic_error("no setting is named " + name);
@@ -123,7 +124,7 @@ template<typename Of>
 Option flag(const char* name, std::string text, unsigned verbs, const Of& of, bool on = true)
 {
     Option o{name, 0, nullptr, std::move(text), "", verbs};
-    o.set = [=](Call& call, const Values&) { of(call) = on; };
+    o.set = [=](CommandLine& call, const Values&) { of(call) = on; };
     return o;
 }
 
@@ -131,7 +132,7 @@ template<typename Of>
 Option text(const char* name, const char* value, std::string help, unsigned verbs, const Of& of)
 {
     Option o{name, 0, value, std::move(help), "", verbs};
-    o.set = [=](Call& call, const Values& v) { of(call) = v.back(); };
+    o.set = [=](CommandLine& call, const Values& v) { of(call) = v.back(); };
     return o;
 }
 
@@ -140,7 +141,7 @@ template<typename Of, typename Enum>
 Option word(const char* name, const char* value, std::string help, unsigned verbs, const Of& of,
             const std::vector<Enum>& choices)
 {
-    const Call preset;
+    const CommandLine preset;
     Option o{name, 0, value, std::move(help), nameOf(of(preset)), verbs};
     for (const Enum choice : choices) o.words.push_back(nameOf(choice));
     o.set = wordSetter(name, choices, of);
@@ -153,7 +154,7 @@ Option either(const char* name, std::string help, const char* on, const char* of
               const Of& of)
 {
     Option o{name, 0, "WORD", std::move(help), off, verbs, {off, on}};
-    o.set = [=, words = o.words](Call& call, const Values& v) {
+    o.set = [=, words = o.words](CommandLine& call, const Values& v) {
         const std::string got = lowered(v.back());
         if (got != on && got != off)
             wrongValue(name, std::string(off) + " or " + on, v.back(), didYouMean(v.back(), words));
@@ -162,7 +163,7 @@ Option either(const char* name, std::string help, const char* on, const char* of
     return o;
 }
 
-void setView(Call& call, const Values& values)
+void setView(CommandLine& call, const Values& values)
 {
     const std::string& view = values.back();
     if (takeView(view, call.picture)) return;
@@ -195,7 +196,7 @@ Option ofFile(Option option)
 template<typename Of>
 Option kept(const Of& of, Option option)
 {
-    option.stored = [=](const Call& call) { return openvdb::BoolMetadata(of(call)).copy(); };
+    option.stored = [=](const CommandLine& call) { return openvdb::BoolMetadata(of(call)).copy(); };
     return option;
 }
 
@@ -203,7 +204,9 @@ Option kept(const Of& of, Option option)
 template<typename Of>
 Option numberKept(const Of& of, Option option)
 {
-    option.stored = [=](const Call& call) { return openvdb::DoubleMetadata(of(call)).copy(); };
+    option.stored = [=](const CommandLine& call) {
+        return openvdb::DoubleMetadata(of(call)).copy();
+    };
     return option;
 }
 
@@ -241,7 +244,7 @@ OptionGroup outputOptions()
 {
     const auto output = [](unsigned verbs, std::string text) {
         Option o{"output", 'o', "FILE", std::move(text), "", verbs, {}, true};
-        o.set = [](Call& call, const Values& values) {
+        o.set = [](CommandLine& call, const Values& values) {
             call.paths = values;
             for (std::string& path : call.paths) // one name for one thing
                 if (path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1")
@@ -259,7 +262,7 @@ OptionGroup outputOptions()
         const Values known = formatsOf(verb);
         Option o{"format", 0,     "WORD", "what -o - writes: one of\n" + inLines(known),
                  "",       verbs, known};
-        o.set = [=](Call& call, const Values& values) {
+        o.set = [=](CommandLine& call, const Values& values) {
             call.format = lowered(values.back());
             if (!std::count(known.begin(), known.end(), call.format))
                 wrongValue("format", joinWords(known, ", "), values.back(),
@@ -272,11 +275,14 @@ OptionGroup outputOptions()
     };
     Option folder{"folder", 'O',  "DIR", "where the files go, with the names of the structures",
                   "",       Batch};
-    folder.set = [](Call& call, const Values& values) { call.folder = values.back(); };
-    Option formats{"formats",      0,
-                   "LIST",         "files to write, by commas, of\n" + inLines(formatsOf(Batch)),
-                   Call().formats, Batch};
-    formats.set = [](Call& call, const Values& values) { call.formats = values.back(); };
+    folder.set = [](CommandLine& call, const Values& values) { call.folder = values.back(); };
+    Option formats{"formats",
+                   0,
+                   "LIST",
+                   "files to write, by commas, of\n" + inLines(formatsOf(Batch)),
+                   CommandLine().formats,
+                   Batch};
+    formats.set = [](CommandLine& call, const Values& values) { call.formats = values.back(); };
     Option shown = either("color",
                           "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
                           "outside)",
@@ -314,7 +320,7 @@ Option superposeOption()
                             "the same, such as \"chain A and name CA\"; auto: by CA and C4'",
                             Build | Compare, MOLSURF_OF(superpose));
     superpose.words = {"auto"};
-    superpose.stored = [](const Call& c) {
+    superpose.stored = [](const CommandLine& c) {
         return stored(c.superpose.empty() ? "none" : c.superpose);
     };
     return superpose;
@@ -365,7 +371,7 @@ OptionGroup frameOptions()
                              "are per second; a .usda and a film play at this rate",
                              "", Build, 1e-3, 1e6, "a number from 0.001 to 1e6", MOLSURF_OF(fps)),
                       [](Option& o) {
-                          o.stored = [](const Call& c) {
+                          o.stored = [](const CommandLine& c) {
                               return openvdb::DoubleMetadata(c.fps).copy();
                           };
                       }))},
@@ -387,7 +393,7 @@ OptionGroup surfaceOptions()
                   "worth it, in .glb and .usda the first one is the default",
                   "",
                   Build};
-    levels.set = [](Call& call, const Values& values) {
+    levels.set = [](CommandLine& call, const Values& values) {
         const std::string expected = "2 to 8 ascending voxels by commas [Å], such as 1,2,4";
         call.lod.clear();
         for (const std::string& word : splitWords(values.back())) {
@@ -398,7 +404,7 @@ OptionGroup surfaceOptions()
         }
         if (call.lod.size() < 2 || call.lod.size() > 8) wrongValue("lod", expected, values.back());
     };
-    levels.stored = [](const Call& c) {
+    levels.stored = [](const CommandLine& c) {
         Values all;
         for (const double voxel : c.lod) all.push_back(shortest(voxel));
         return stored(all.empty() ? "none" : joinWords(all, ","));
@@ -470,7 +476,7 @@ OptionGroup groupOptions()
         with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]",
                   surfaces, MOLSURF_OF(groupsFile)),
              [](Option& o) {
-                 o.stored = [](const Call& c) {
+                 o.stored = [](const CommandLine& c) {
                      Values all;
                      for (const GroupRule& group : c.atoms.groups)
                          all.push_back(group.name + " " + group.select);
@@ -497,7 +503,7 @@ OptionGroup areaOptions()
                  "",
                  wholes,
                  areaTables()};
-    areas.set = [](Call& call, const Values& values) {
+    areas.set = [](CommandLine& call, const Values& values) {
         call.areas = splitWords(lowered(values.back()));
         for (const std::string& table : call.areas)
             if (std::count(areaTables().begin(), areaTables().end(), table) == 0)
@@ -542,7 +548,9 @@ OptionGroup poreOptions()
 OptionGroup sceneOptions()
 {
     Option host = fileOption("for", wholes), center = fileOption("center", wholes);
-    host.stored = [](const Call& c) { return stored(c.forApbs ? "apbs" : nameOf(c.scene.host)); };
+    host.stored = [](const CommandLine& c) {
+        return stored(c.forApbs ? "apbs" : nameOf(c.scene.host));
+    };
     center.shownIn = 0; // pictures look the same
     return {
         "Scene",
@@ -612,7 +620,7 @@ Option showOption()
     for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
     show.words.push_back("pockets");
     show.repeats = true;
-    show.set = [](Call& call, const Values& values) {
+    show.set = [](CommandLine& call, const Values& values) {
         for (const std::string& value : values)
             if (const std::size_t count = pocketsIn(value))
                 call.shownPockets = count;
@@ -645,7 +653,7 @@ Option panelOption()
     panel.file = [](const std::string& value) {
         return directionOf(value) || surfaceKindOf(value) ? std::string::npos : std::size_t(0);
     };
-    panel.set = [](Call& call, const Values& values) {
+    panel.set = [](CommandLine& call, const Values& values) {
         for (const std::string& value : values) {
             const auto way = directionOf(value);
             if (value.empty() || (way && !(way->length() > 0.0 && std::isfinite(way->length()))))
@@ -672,7 +680,7 @@ Option noteOption(const char* name, const char* argument, const char* help,
 {
     Option note{name, 0, argument, help, "", Build | Batch};
     note.repeats = true;
-    note.set = [=](Call& call, const Values& values) {
+    note.set = [=](CommandLine& call, const Values& values) {
         for (const std::string& value : values) call.notes.push_back(parse(value));
     };
     return shownIn(Pixels, note);
@@ -747,7 +755,7 @@ Option requireOption()
                     "",
                     wholes,
                     requirementWords()};
-    required.set = [](Call& call, const Values& values) {
+    required.set = [](CommandLine& call, const Values& values) {
         const auto parsed = parseRequirements(values.back());
         if (!parsed)
             wrongValue("require",
@@ -765,7 +773,7 @@ Option threadsOption()
 {
     Option threads{"threads", 'j', "N", "threads at most", "all", runs};
     threads.set = [set = countSetter("threads", 1, 4096, MOLSURF_OF(threads))](
-                      Call& call, const Values& values) {
+                      CommandLine& call, const Values& values) {
         const std::string word = lowered(values.back());
         if (word == "0" || word == "-1" || word == "all" || word == "auto" || word == "max")
             wrongValue("threads", "a whole number from 1 to 4096", values.back(),
@@ -779,7 +787,7 @@ OptionGroup runOptions()
 {
     const auto memory = [](unsigned verbs, std::string text) {
         Option o{"memory", 0, "SIZE", std::move(text), "", verbs};
-        o.set = [](Call& call, const Values& values) {
+        o.set = [](CommandLine& call, const Values& values) {
             call.memory = sizeValue("memory", values.back());
             constexpr std::size_t least = 1024; // a number without its unit
             if (call.memory < least)
@@ -821,13 +829,13 @@ OptionGroup runOptions()
 
 } // namespace
 
-bool Call::writes(unsigned some) const
+bool CommandLine::writes(unsigned some) const
 {
     return std::any_of(outputs.begin(), outputs.end(),
                        [=](const Output& output) { return output.holds(some); });
 }
 
-bool Call::writesOnly(unsigned some) const
+bool CommandLine::writesOnly(unsigned some) const
 {
     return !outputs.empty() &&
            std::all_of(outputs.begin(), outputs.end(),
@@ -891,7 +899,7 @@ std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given)
     return files;
 }
 
-void addOptions(const Call& call, openvdb::MetaMap& map)
+void addOptions(const CommandLine& call, openvdb::MetaMap& map)
 {
     const auto add = [&](const std::string& name, const openvdb::Metadata& value) {
         map.insertMeta("option." + name, value);

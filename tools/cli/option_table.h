@@ -7,7 +7,7 @@
 
 #include "cli/call.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 
 #include <openvdb/openvdb.h>
 
@@ -30,9 +30,9 @@ struct Option {
     bool repeats = false;
     /// Sets it.
     /// @throws Error(ErrorKind::Usage) for a value that it cannot have
-    std::function<void(Call&, const std::vector<std::string>& values)> set = nullptr;
+    std::function<void(CommandLine&, const std::vector<std::string>& values)> set = nullptr;
     /// Its value as metadata of a file; null: it is not stored.
-    std::function<openvdb::Metadata::Ptr(const Call&)> stored = nullptr;
+    std::function<openvdb::Metadata::Ptr(const CommandLine&)> stored = nullptr;
     /// Where in a value the path of a file begins that is read; npos: the value names none. Null:
     /// no value does.
     std::function<std::size_t(const std::string& value)> file = nullptr;
@@ -77,13 +77,13 @@ std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given);
 
 /// Adds the options as metadata "option.NAME", and the hashes of the files that they name as
 /// "option.NAME.sha256".
-void addOptions(const Call& call, openvdb::MetaMap& map);
+void addOptions(const CommandLine& call, openvdb::MetaMap& map);
 
 /// The tables of areas: "atoms", "residues", "contacts", "interfaces", "pockets", "pore",
 /// "tunnels", "forces".
 const std::vector<std::string>& areaTables();
 
 /// @throws Error(ErrorKind::Usage)
-[[noreturn]] void misuse(const std::string& message);
+[[noreturn]] void usageError(const std::string& message);
 
 } // namespace molsurf::tool

@@ -26,7 +26,7 @@ Pair areasWithout(const char* option, const char* why)
     return {option, Excludes, {{Areas, "", ofAtoms}, {"areas", ofAtoms}}, why};
 }
 
-bool hasAreasInClosedForm(const Call& call)
+bool hasAreasInClosedForm(const CommandLine& call)
 {
     SurfaceOptions shown = call.options;
     shown.kind = shown.areasOf.value_or(shown.kind);
@@ -37,12 +37,12 @@ bool hasAreasInClosedForm(const Call& call)
 std::vector<Pair> assemblyPairs()
 {
     const auto coloured = [](const char* what, const char* hint) {
-        return Pair{what, Excludes, {"groups", "group-by"}, hint, [](const Call& call) {
+        return Pair{what, Excludes, {"groups", "group-by"}, hint, [](const CommandLine& call) {
                         return call.colorsCopies();
                     }};
     };
     const auto ofGroups = [](const char* what) {
-        return Pair{what, Needs, {"groups", "group-by"}, "", [](const Call& call) {
+        return Pair{what, Needs, {"groups", "group-by"}, "", [](const CommandLine& call) {
                         const bool later = call.outputs.empty() && !call.dryRun;
                         return later || call.atoms.groupBy || call.verb == Convert;
                     }};
@@ -70,7 +70,7 @@ std::vector<Pair> assemblyPairs()
              {"for"},
              ": the density of a .vdb needs the whole at once [hint: --fields surface,Cd in its "
              "place]",
-             [](const Call& call) { return !call.writes(Grids); }},
+             [](const CommandLine& call) { return !call.writes(Grids); }},
             {"by-symmetry",
              Excludes,
              {{Areas, "contacts", ofResidues},
@@ -93,12 +93,14 @@ std::vector<Pair> assemblyPairs()
 std::vector<Pair> areaPairs()
 {
     Pair memory = areasWithout("memory", " [hint: --surface sas needs no grid]");
-    memory.unless = [](const Call& call) { return call.outputs.empty() || !call.options.grid; };
+    memory.unless = [](const CommandLine& call) {
+        return call.outputs.empty() || !call.options.grid;
+    };
     Pair unit =
         areasWithout("by-symmetry", ": expected a closed form [hint: --surface sas or vdw]");
     unit.unless = hasAreasInClosedForm;
     const std::vector<Thing> forces = {{Areas, "forces", ofForces}, {"areas=forces", ofForces}};
-    const auto rests = [](const Call& call) { return restsInClosedForm(call.options); };
+    const auto rests = [](const CommandLine& call) { return restsInClosedForm(call.options); };
     return {{"instances", Excludes, forces, " [hint: without --instances]"},
             areasWithout("coarse", " [hint: a run without --coarse]"),
             areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
@@ -120,7 +122,7 @@ std::vector<Pair> areaPairs()
 /// Rows of triangles of an even size.
 std::vector<Pair> meshPairs()
 {
-    const auto nothing = [](const Call& call) { return call.outputs.empty(); };
+    const auto nothing = [](const CommandLine& call) { return call.outputs.empty(); };
     const auto ofMesh = [=](const char* option) {
         return Pair{option,
                     Needs,
@@ -159,62 +161,64 @@ std::vector<Pair> pocketPairs()
 
 std::vector<Pair> surfacePairs()
 {
-    const auto unlessAll = [](const Call& call) {
+    const auto unlessAll = [](const CommandLine& call) {
         const auto& rules = call.atoms.resolutions;
         return std::none_of(rules.begin(), rules.end(),
                             [](const ResolutionRule& rule) { return rule.select.empty(); });
     };
     const auto ofValues = [](const char* option) {
-        return Pair{option, IsFor, {}, "--color by a value or a curvature", [](const Call& call) {
-                        const ColorBy by = call.options.color;
-                        return call.verb == Compare || call.atoms.valueBy ||
-                               kindOf(by).ofCurvature ||
-                               (call.verb == Convert && by == ColorBy::Nothing);
-                    }};
+        return Pair{
+            option, IsFor, {}, "--color by a value or a curvature", [](const CommandLine& call) {
+                const ColorBy by = call.options.color;
+                return call.verb == Compare || call.atoms.valueBy || kindOf(by).ofCurvature ||
+                       (call.verb == Convert && by == ColorBy::Nothing);
+            }};
     };
-    const auto ofAtomValues = [](const Call& call) {
+    const auto ofAtomValues = [](const CommandLine& call) {
         return call.atoms.valueBy && !call.atoms.valueBy->byPoint();
     };
-    return {
-        {"fog-density", Needs, {"for"}},
-        {"match=ses",
-         Excludes,
-         {"epsilon", "lambda", "resolution"},
-         ": it has values of its own for both"},
-        {"min-wall", Needs, {"print-scale"}},
-        {"steps", Excludes, {"max-steps"}},
-        {"no-hetero", Excludes, {"hetero", "ions"}},
-        {"epsilon",
-         Excludes,
-         {"resolution"},
-         ": a resolution for all atoms says how smooth it is, too",
-         unlessAll},
-        {"match-volume", IsFor, {"resolution"}},
-        {"legend",
-         IsFor,
-         {"color", "show"},
-         "",
-         [](const Call& call) {
-             return (call.verb & (Convert | Compare)) != 0 ||
-                    call.options.color != ColorBy::Nothing; // --for chooses colours
-         }},
-        {"all-walls", IsFor, {"opacity"}},
-        ofValues("range"),
-        ofValues("palette"),
-        {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
-        {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
-        {"outward", IsFor, {"color=potential"}},
-        {"crisp",
-         IsFor,
-         {},
-         "--color in flat colours, as chain or element",
-         [](const Call& call) {
-             const bool blended = call.options.color == ColorBy::Value && !call.atoms.coloring.flat;
-             return !blended && kindOf(call.options.color).hasBorders != nullptr;
-         }},
-        {"crisp", IsFor, {}, "one surface, without --split and --surface-of", [](const Call& call) {
-             return !call.options.ofParts();
-         }}};
+    return {{"fog-density", Needs, {"for"}},
+            {"match=ses",
+             Excludes,
+             {"epsilon", "lambda", "resolution"},
+             ": it has values of its own for both"},
+            {"min-wall", Needs, {"print-scale"}},
+            {"steps", Excludes, {"max-steps"}},
+            {"no-hetero", Excludes, {"hetero", "ions"}},
+            {"epsilon",
+             Excludes,
+             {"resolution"},
+             ": a resolution for all atoms says how smooth it is, too",
+             unlessAll},
+            {"match-volume", IsFor, {"resolution"}},
+            {"legend",
+             IsFor,
+             {"color", "show"},
+             "",
+             [](const CommandLine& call) {
+                 return (call.verb & (Convert | Compare)) != 0 ||
+                        call.options.color != ColorBy::Nothing; // --for chooses colours
+             }},
+            {"all-walls", IsFor, {"opacity"}},
+            ofValues("range"),
+            ofValues("palette"),
+            {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
+            {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
+            {"outward", IsFor, {"color=potential"}},
+            {"crisp",
+             IsFor,
+             {},
+             "--color in flat colours, as chain or element",
+             [](const CommandLine& call) {
+                 const bool blended =
+                     call.options.color == ColorBy::Value && !call.atoms.coloring.flat;
+                 return !blended && kindOf(call.options.color).hasBorders != nullptr;
+             }},
+            {"crisp",
+             IsFor,
+             {},
+             "one surface, without --split and --surface-of",
+             [](const CommandLine& call) { return !call.options.ofParts(); }}};
 }
 
 /// Rows of structures that are laid on others.
@@ -224,7 +228,7 @@ std::vector<Pair> superposePairs()
              Needs,
              {"frames", "trajectory", "panel"},
              " [hint: vdb_molsurf compare A B --superpose auto]",
-             [](const Call& call) { return call.verb == Compare; }},
+             [](const CommandLine& call) { return call.verb == Compare; }},
             {"superpose",
              Excludes,
              {"color=potential"},
@@ -234,12 +238,12 @@ std::vector<Pair> superposePairs()
 /// Rows of frames, files and the run.
 std::vector<Pair> runPairs()
 {
-    const auto fromModels = [](const Call& call) { return !call.trajectory.empty(); };
-    const auto ofPlan = [](const Call& call) { return call.verb == BricksPlan; };
-    const auto toPipe = [](const Call& call) {
+    const auto fromModels = [](const CommandLine& call) { return !call.trajectory.empty(); };
+    const auto ofPlan = [](const CommandLine& call) { return call.verb == BricksPlan; };
+    const auto toPipe = [](const CommandLine& call) {
         return std::any_of(call.paths.begin(), call.paths.end(), isStream);
     };
-    const auto ofStored = [](const Call& call) { return call.verb == Convert; };
+    const auto ofStored = [](const CommandLine& call) { return call.verb == Convert; };
     const std::vector<Thing> notOfFrames = {"memory", "dry-run", "turntable", "output=-"};
     return {
         {"quiet", Excludes, {"verbose"}},
@@ -251,7 +255,7 @@ std::vector<Pair> runPairs()
          Needs,
          {"frames", "trajectory", {Moving, "", "-o FILE.mp4"}},
          "",
-         [](const Call& call) { return call.outputs.empty(); }},
+         [](const CommandLine& call) { return call.outputs.empty(); }},
         {"first-frame", Needs, {"frames", "trajectory"}},
         {"update-selections", Needs, {"frames", "trajectory"}},
         {"update-selections", Excludes, {"fields=v"}, ": its atoms have to be those of all frames"},
@@ -275,7 +279,7 @@ std::vector<Pair> runPairs()
          Excludes,
          {"split", "surface-of"},
          ": a film has one mesh [hint: -o FILE.glb is a file for each frame]",
-         [](const Call& call) { return call.frames.empty(); }},
+         [](const CommandLine& call) { return call.frames.empty(); }},
         {{Solver},
          Excludes,
          {"frames", "trajectory", "split", "surface-of", "instances", "by-symmetry", "assembly",
@@ -290,12 +294,14 @@ std::vector<Pair> runPairs()
          Needs,
          {{Numbers, "", "-o FILE.json"}},
          ": it knows the files by their report",
-         [](const Call& call) { return call.outputs.empty(); }},
+         [](const CommandLine& call) { return call.outputs.empty(); }},
         {"format", Needs, {"output=-"}, ": the extension of a file says what it is", toPipe},
         {"output=-", Needs, {"format"}, " [hint: --format ply, for example]", ofPlan},
-        {{Grids}, Needs, {"color"}, ": without it the file would be a copy", [](const Call& call) {
-             return call.verb != Convert;
-         }}};
+        {{Grids},
+         Needs,
+         {"color"},
+         ": without it the file would be a copy",
+         [](const CommandLine& call) { return call.verb != Convert; }}};
 }
 
 /// An option, and its value if there is one, as they are typed.
@@ -318,7 +324,7 @@ bool isValue(const std::string& given, const std::string& wanted)
 }
 
 /// How a call has a thing; none: it has not.
-std::optional<std::string> found(const Call& call, const Thing& thing)
+std::optional<std::string> found(const CommandLine& call, const Thing& thing)
 {
     std::string text;
     if (thing.holds) {
@@ -366,7 +372,7 @@ const std::vector<Pair>& pairTable()
     return all;
 }
 
-void checkPairs(const Call& call)
+void checkPairs(const CommandLine& call)
 {
     for (const Pair& row : pairTable()) {
         if (row.pairing == IsFor || (row.unless && row.unless(call))) continue;
@@ -376,16 +382,16 @@ void checkPairs(const Call& call)
         for (const Thing& other : row.others) {
             const std::optional<std::string> second = found(call, other);
             if (second && row.pairing == Excludes)
-                misuse((other.title ? *second + " and " + *thing : *thing + " and " + *second) +
-                       " together" + row.why);
+                usageError((other.title ? *second + " and " + *thing : *thing + " and " + *second) +
+                           " together" + row.why);
             any = any || second;
         }
         if (row.pairing == Needs && !any)
-            misuse(*thing + ": expected " + anyOf(row.others) + " too" + row.why);
+            usageError(*thing + ": expected " + anyOf(row.others) + " too" + row.why);
     }
 }
 
-void warnOfPairs(Call& call)
+void warnOfPairs(CommandLine& call)
 {
     for (const Pair& row : pairTable()) {
         if (row.pairing != IsFor || (row.unless && row.unless(call))) continue;

@@ -40,7 +40,7 @@ struct Pair {
     Pairing pairing;
     std::vector<Thing> others;
     const char* why = ""; ///< the end of the message, or all of what it is for
-    bool (*unless)(const Call& call) =
+    bool (*unless)(const CommandLine& call) =
         nullptr; ///< calls that the row is not for; null: it is for all
 };
 
@@ -49,9 +49,9 @@ const std::vector<Pair>& pairTable();
 
 /// Holds a call against the table.
 /// @throws Error(ErrorKind::Usage) that names the first pair that breaks it
-void checkPairs(const Call& call);
+void checkPairs(const CommandLine& call);
 
 /// Adds the warnings of rows whose pairing is Pairing::IsFor.
-void warnOfPairs(Call& call);
+void warnOfPairs(CommandLine& call);
 
 } // namespace molsurf::tool

@@ -108,7 +108,7 @@ Verb takeVerb(std::vector<std::string>& words)
         return info.verb;
     }
     if (!second.empty())
-        misuse(
+        usageError(
             words[0] + ": expected " + joinWords(second, ", ") + " after it, got " +
             (words.size() > 1 ? "'" + words[1] + "'" + didYouMean(words[1], second) : "nothing") +
             (words.size() > 1 ? "" : " [hint: vdb_molsurf help]"));
@@ -117,15 +117,15 @@ Verb takeVerb(std::vector<std::string>& words)
     const std::string hint = didYouMean(words[0], verbs());
     if (!hint.empty() && words[0][0] != '-' && words[0].find_first_of("./") == std::string::npos &&
         !std::filesystem::exists(words[0], ignored))
-        misuse("unknown verb '" + words[0] + "'" + hint);
+        usageError("unknown verb '" + words[0] + "'" + hint);
     return Build;
 }
 
 /// Refuses an option without its value.
 [[noreturn]] void missingValue(const Option& option)
 {
-    misuse("--" + std::string(option.name) + ": expected a value, got none [hint: for example " +
-           exampleOf(option) + "]");
+    usageError("--" + std::string(option.name) +
+               ": expected a value, got none [hint: for example " + exampleOf(option) + "]");
 }
 
 /// A hint on an option that a verb does not have: its name as the program has it, what another
@@ -166,10 +166,10 @@ std::string hintOf(Verb verb, const std::string& name, const std::vector<std::st
     }
     if (!others.empty()) {
         const bool file = name == "o" || name == "output";
-        misuse(typed + " is for " + joinWords(others, ", ") + ", not for " + infoOf(verb).name +
-               (file && findOption(verb, "folder") ? meant("-O") : ""));
+        usageError(typed + " is for " + joinWords(others, ", ") + ", not for " + infoOf(verb).name +
+                   (file && findOption(verb, "folder") ? meant("-O") : ""));
     }
-    misuse("unknown option '" + typed + "'" + hintOf(verb, name, known));
+    usageError("unknown option '" + typed + "'" + hintOf(verb, name, known));
 }
 
 /// Refuses an option without a value, or a switch with one.
@@ -179,9 +179,9 @@ std::string hintOf(Verb verb, const std::string& name, const std::vector<std::st
     const std::string name = typed.substr(std::min(typed.find_first_not_of('-'), typed.size()));
     if (const Option* option = findOption(verb, name)) {
         if (option->value) missingValue(*option);
-        misuse("--" + std::string(option->name) + ": it is a switch and takes no value");
+        usageError("--" + std::string(option->name) + ": it is a switch and takes no value");
     }
-    misuse(error.what());
+    usageError(error.what());
 }
 
 /// Whether a switch is on, by its value in a file of options.
@@ -192,7 +192,7 @@ bool isOn(const std::string& name, const std::string& value)
     };
     if (is({"true", "yes", "on", "1"})) return true;
     if (is({"false", "no", "off", "0"})) return false;
-    misuse("--" + name + ": expected true or false, got '" + value + "'");
+    usageError("--" + name + ": expected true or false, got '" + value + "'");
 }
 
 /// Adds what was parsed; what is there already stays.
@@ -213,7 +213,7 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
             continue; // a switch that is off
         std::vector<std::string>& values = fresh[name];
         if (known && known->value && !known->repeats && !values.empty())
-            misuse("--" + name + " is given twice");
+            usageError("--" + name + " is given twice");
         if (known && known->value) {
             if (option.value.empty() || option.value[0].empty()) missingValue(*known);
             values.insert(values.end(), option.value.begin(), option.value.end());
@@ -222,7 +222,7 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
     for (auto& [name, values] : fresh) given.emplace(name, std::move(values));
 }
 
-void readConfig(const std::string& path, const po::options_description& all, Call& call)
+void readConfig(const std::string& path, const po::options_description& all, CommandLine& call)
 {
     const auto limit = call.given.find("max-input");
     if (limit != call.given.end()) findOption(call.verb, "max-input")->set(call, limit->second);
@@ -239,10 +239,10 @@ void readConfig(const std::string& path, const po::options_description& all, Cal
         for (const auto& option : options.options)
             if (option.string_key == "config" ||
                 std::count(std::begin(texts), std::end(texts), option.string_key) > 0)
-                misuse("'" + option.string_key + "' is for the command line alone");
+                usageError("'" + option.string_key + "' is for the command line alone");
         add(call.verb, options, call.given, call.inputs);
     } catch (const po::error& e) {
-        misuse("--config " + path + ": " + e.what());
+        usageError("--config " + path + ": " + e.what());
     } catch (const Error& e) {
         throw Error(e, "--config " + path + ": " + e.what());
     }
@@ -255,18 +255,18 @@ std::string helpOn(std::vector<std::string> words)
     const std::string first = lowered(words[0]);
     const std::vector<std::string> known = verbs();
     if (std::count(known.begin(), known.end(), first) == 0) {
-        if (words.size() > 1) misuse("help: expected one word, got '" + words[1] + "' too");
+        if (words.size() > 1) usageError("help: expected one word, got '" + words[1] + "' too");
         if (first == "options") return helpText(Build, true);
         const std::string text = topicText(first);
         if (!text.empty()) return text;
         std::vector<std::string> topics = topicWords();
         topics.insert(topics.end(), known.begin(), known.end());
-        misuse("help: expected a verb, a group of options or an option, got '" + words[0] + "'" +
-               didYouMean(words[0], topics));
+        usageError("help: expected a verb, a group of options or an option, got '" + words[0] +
+                   "'" + didYouMean(words[0], topics));
     }
     if (asksForVerbs(words, true)) return overview(first);
     const Verb verb = takeVerb(words);
-    if (!words.empty()) misuse("help: expected one verb, got '" + words[0] + "' too");
+    if (!words.empty()) usageError("help: expected one verb, got '" + words[0] + "' too");
     return helpText(verb, false);
 }
 
@@ -283,7 +283,7 @@ std::string quoted(const std::string& word)
 
 } // namespace
 
-void setOptions(const GivenOptions& given, Call& call)
+void setOptions(const GivenOptions& given, CommandLine& call)
 {
     call.given = given;
     for (const OptionGroup& group : optionTable()) {
@@ -292,7 +292,7 @@ void setOptions(const GivenOptions& given, Call& call)
             const auto found = given.find(option.name);
             if (found == given.end()) continue;
             if (option.value && found->second.empty()) // in a plan
-                misuse(std::string("--") + option.name + ": expected a value, got none");
+                usageError(std::string("--") + option.name + ": expected a value, got none");
             option.set(call, found->second);
         }
     }
@@ -302,7 +302,7 @@ void setOptions(const GivenOptions& given, Call& call)
 Parsed parse(int argc, const char* const* argv)
 {
     std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-    Call call;
+    CommandLine call;
     for (int i = 0; i < argc; ++i) call.command += (i ? " " : "") + quoted(argv[i]);
     if (words.size() == 1) {
         for (const Page& page : pages)
@@ -329,7 +329,7 @@ Parsed parse(int argc, const char* const* argv)
     } catch (const po::error_with_option_name& e) {
         refuseValue(call.verb, e);
     } catch (const po::error& e) {
-        misuse(e.what());
+        usageError(e.what());
     }
     if (call.has("help-all")) return {{}, helpText(call.verb, true)};
     if (call.has("help")) return {{}, helpText(call.verb, false)};

@@ -14,7 +14,7 @@ namespace molsurf::tool
 
 /// A call, or a text to print in its place: help, version and the like.
 struct Parsed {
-    std::optional<Call> call;
+    std::optional<CommandLine> call;
     std::string text;
 };
 
@@ -24,7 +24,7 @@ Parsed parse(int argc, const char* const* argv);
 
 /// Sets options of a call; the order of their names does not matter.
 /// @throws Error(ErrorKind::Usage) for a value that an option cannot have
-void setOptions(const GivenOptions& given, Call& call);
+void setOptions(const GivenOptions& given, CommandLine& call);
 
 // help.cpp: the texts, all made of the tables of verbs and options.
 

@@ -39,7 +39,7 @@ VerbInfo buildVerb()
          {"vdb_molsurf 1ubq.pdb --surface ses -o 1ubq.json -o 1ubq.residues.csv",
           "exact area and volume, and the areas of residues"}},
         completeBuild,
-        [](const Call& call, auto start) {
+        [](const CommandLine& call, auto start) {
             return call.frames.empty() ? build(call, start) : frames(call, start);
         }};
 }
@@ -62,7 +62,7 @@ VerbInfo batchVerb()
         {{"vdb_molsurf batch structures/ -O surfaces --surface sas --formats json",
           "a report for each structure of a folder, and a table of all"}},
         completeBatch,
-        [](const Call& call, auto) { return batch(call); }};
+        [](const CommandLine& call, auto) { return batch(call); }};
 }
 
 VerbInfo compareVerb()
@@ -80,7 +80,7 @@ VerbInfo compareVerb()
         checkedStatus,
         {{"vdb_molsurf compare a.vdb b.vdb -o difference.ply", "a mesh coloured by distance"}},
         completeCompare,
-        [](const Call& call, auto start) { return tool::compare(call, start); }};
+        [](const CommandLine& call, auto start) { return tool::compare(call, start); }};
 }
 
 VerbInfo convertVerb()
@@ -95,7 +95,7 @@ VerbInfo convertVerb()
             "",
             {{"vdb_molsurf convert 1crn.vdb -o 1crn.stl", "a mesh of a stored surface"}},
             completeConvert,
-            [](const Call& call, auto start) { return convert(call, start); }};
+            [](const CommandLine& call, auto start) { return convert(call, start); }};
 }
 
 VerbInfo planVerb()
@@ -113,7 +113,7 @@ VerbInfo planVerb()
         {{"vdb_molsurf bricks plan 4v5a.cif.gz --memory 500M -o plan.json",
           "a plan whose bricks take 500 MiB each"}},
         completePlan,
-        [](const Call& call, auto) { return plan(call); }};
+        [](const CommandLine& call, auto) { return plan(call); }};
 }
 
 VerbInfo brickVerb()
@@ -128,7 +128,7 @@ VerbInfo brickVerb()
         "",
         {},
         completeBrick,
-        [](const Call& call, auto) { return brick(call); }};
+        [](const CommandLine& call, auto) { return brick(call); }};
 }
 
 VerbInfo mergeVerb()
@@ -141,7 +141,7 @@ VerbInfo mergeVerb()
             checkedStatus,
             {{"vdb_molsurf bricks merge plan.json -o 4v5a.vdb", "the surface of all bricks"}},
             completeMerge,
-            [](const Call& call, auto start) { return merge(call, start); }};
+            [](const CommandLine& call, auto start) { return merge(call, start); }};
 }
 
 VerbInfo infoVerb()
@@ -159,7 +159,7 @@ VerbInfo infoVerb()
         "",
         {{"vdb_molsurf info 4hhb.cif.gz", "its chains and assemblies"}},
         completeInfo,
-        [](const Call& call, auto) {
+        [](const CommandLine& call, auto) {
             for (const std::string& path : call.inputs)
                 std::cout << (isVdbFile(path) ? describeVdb(path)
                                               : describeStructure(path, call.atoms.maxInput));

@@ -23,9 +23,9 @@ struct VerbInfo {
     std::vector<Example> examples; ///< may be empty
     /// Makes what is meant of what was given, and refuses what makes no sense.
     /// @throws Error(ErrorKind::Usage)
-    void (*complete)(Call& call);
+    void (*complete)(CommandLine& call);
     /// @return the exit status
-    int (*perform)(const Call& call, std::chrono::steady_clock::time_point start);
+    int (*perform)(const CommandLine& call, std::chrono::steady_clock::time_point start);
 };
 
 /// All of them; the first one is the verb of a command line without one.

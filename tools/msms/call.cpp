@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "msms/call.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/text_fields.h"
 

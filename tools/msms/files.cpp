@@ -2,7 +2,7 @@
 #include "msms/files.h"
 
 #include "molsurf/core/printable.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/io/output_buffer.h"
 
 #include <algorithm>

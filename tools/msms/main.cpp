@@ -95,9 +95,9 @@ void perform(const MsmsCall& call)
     const BallSet selected = selectBalls(structure, all, call.probe, terminal);
     const Spheres spheres{structure, selected.balls};
     for (const auto* list : {&call.warnings, &structure.warnings, &selected.warnings})
-        for (const std::string& warning : *list) say("warning: " + warning);
+        for (const std::string& warning : *list) printLine("warning: " + warning);
     const PlannedBrick cost = costOf(call, selected, terminal);
-    if (call.dryRun) return say(tool::costText(cost));
+    if (call.dryRun) return printLine(tool::costText(cost));
     constexpr double hours = 24.0;
     checkCost(cost, {availableMemory(), hours, int(std::thread::hardware_concurrency()),
                      " [hint: a smaller -density, or fewer spheres"});

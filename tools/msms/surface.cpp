@@ -9,7 +9,7 @@
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
 #include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/thin.h"
+#include "molsurf/mesh/simplify.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/surface.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "nanoshaper/config.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/structure/load_text.h"
 #include "molsurf/structure/text_fields.h"
 

@@ -9,7 +9,7 @@
 #include "stand_in.h"
 #include "terminal.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/output_buffer.h"
 #include "molsurf/io/write_mesh.h"
@@ -210,7 +210,7 @@ void perform(const std::string& path)
     const BallSet spheres = selectBalls(structure, all, config.probe, terminal);
     for (const auto* list : {&config.warnings, &structure.warnings, &spheres.warnings})
         for (const std::string& warning : *list) {
-            say("warning: " + warning);
+            printLine("warning: " + warning);
             results.warnings += warning + "\n";
         }
     checkRun(config, spheres, terminal);

@@ -3,7 +3,7 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "molsurf/balls/circle_cover.h"
 
 #include "molsurf/balls/quad.h"
-#include "molsurf/core/perpendicular.h"
+#include "molsurf/core/orthonormal_basis.h"
 #include "molsurf/core/simd.h"
 
 #include <algorithm>

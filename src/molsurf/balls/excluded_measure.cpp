@@ -6,7 +6,7 @@
 #include "molsurf/balls/toric_tube.h"
 #include "molsurf/core/disjoint_sets.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 
 #include <tbb/enumerable_thread_specific.h>

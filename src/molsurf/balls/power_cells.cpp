@@ -4,8 +4,8 @@
 #include "molsurf/balls/ball_boundary.h"
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/balls/boundary_measure.h"
+#include "molsurf/core/orthonormal_basis.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/perpendicular.h"
 
 #include <openvdb/Types.h>
 

@@ -3,7 +3,7 @@
 
 #include "molsurf/bricks/brick_file.h"
 #include "molsurf/core/cancel.h"
-#include "molsurf/core/may_pass.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 #include "molsurf/io/json_number.h"
 #include "molsurf/pipeline/check_balls.h"

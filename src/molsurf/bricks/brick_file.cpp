@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks/brick_file.h"
 
-#include "molsurf/core/may_pass.h"
 #include "molsurf/core/parallel.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 #include "molsurf/io/json_number.h"
 #include "molsurf/io/write_vdb.h"

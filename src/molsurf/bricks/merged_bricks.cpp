@@ -135,7 +135,7 @@ std::optional<EvolutionReport> evolutionOf(const std::vector<BrickFile>& bricks,
     for (std::size_t i = 0; i < moved.size(); ++i)
         all.meanDisplacement.push_back(all.area[i] > 0.0 ? moved[i] / all.area[i] : 0.0);
     if (restsInClosedForm(options)) {
-        judgeRest(last, options, voxel, all);
+        checkConvergence(last, options, voxel, all);
     } else {
         judge(last, options, voxel, all);
         estimateAreaError(options, all);

@@ -4,7 +4,7 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/bricks/brick_file.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/pipeline/check_balls.h"
 #include "molsurf/pipeline/influence.h"

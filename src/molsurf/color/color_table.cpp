@@ -4,7 +4,7 @@
 #include "molsurf/color/curvature_colors.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/structure/element.h"
 
 #include <algorithm>

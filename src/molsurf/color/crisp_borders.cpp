@@ -3,8 +3,8 @@
 
 #include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
+#include "molsurf/core/bracketed_root.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/zero_between.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include "molsurf/flow/interface_motion.h"
 #include "molsurf/flow/newton_step.h"
 #include "molsurf/flow/paper_step.h"
-#include "molsurf/flow/settle.h"
+#include "molsurf/flow/relax_fronts.h"
 #include "molsurf/levelset/reinitialize.h"
 
 #include <algorithm>
@@ -260,8 +260,8 @@ void estimateAreaError(const EvolveOptions& options, EvolutionReport& report)
                        std::max(change, interfaceCurvature * report.displacementRms);
 }
 
-void judgeRest(const Displacements& ways, const EvolveOptions& options, double voxelSize,
-               EvolutionReport& report)
+void checkConvergence(const Displacements& ways, const EvolveOptions& options, double voxelSize,
+                      EvolutionReport& report)
 {
     // measured: vdb_molsurf FILE --lambda 0.02 -o x.json of 1CRN, 4AT1, 1A8O, 4HHB, 1EHZ, 1AOI and
     // 1HZH, voxels of 0.25 to 2 Å: up to 0.017 h^2 [1/Å] and 0.005 Å, and 0.1 Å at the tail.

@@ -34,8 +34,8 @@ Weights weightsOf(const EvolveOptions& options);
 /// first order.
 bool makesNewtonSteps(const EvolveOptions& options);
 
-/// Whether the interface at rest is known in closed form (flow/rest.h): no front moves, and no
-/// number of steps is given.
+/// Whether the interface at rest is known in closed form (flow/equilibrium.h): no front moves, and
+/// no number of steps is given.
 bool restsInClosedForm(const EvolveOptions& options);
 
 /// Whether the flow starts from its rest on voxels twice as large. It does so where lambda is so
@@ -81,8 +81,8 @@ void estimateAreaError(const EvolveOptions& options, EvolutionReport& report);
 /// @param[in]     ways       from it to rest, see waysToRest()
 /// @param[in]     voxelSize  edge h of a voxel [Å]
 /// @param[in,out] report     converged, the ways and areaError are set
-void judgeRest(const Displacements& ways, const EvolveOptions& options, double voxelSize,
-               EvolutionReport& report);
+void checkConvergence(const Displacements& ways, const EvolveOptions& options, double voxelSize,
+                      EvolutionReport& report);
 
 /// Whether a flow has come as near to rest as its voxels let it: in eight steps neither the root
 /// mean square nor the quantile of its ways has fallen by a tenth, nor have area and

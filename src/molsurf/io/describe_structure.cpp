@@ -2,10 +2,10 @@
 #include "molsurf/io/describe_structure.h"
 
 #include "molsurf/core/printable.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/choose_copies.h"
-#include "molsurf/selection/molecule.h"
+#include "molsurf/selection/residue_roles.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 #include "molsurf/structure/residue_kind.h"

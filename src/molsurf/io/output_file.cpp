@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/output_file.h"
 
-#include "molsurf/core/may_pass.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 #include "molsurf/io/commit.h"
 #include "molsurf/io/temporary_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/scene.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 
 #include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/ValueTransformer.h>

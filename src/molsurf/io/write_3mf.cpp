@@ -2,7 +2,7 @@
 #include "molsurf/io/write_3mf.h"
 
 #include "molsurf/core/content_digest.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/io/part_ranges.h"
 #include "molsurf/io/zip_file.h"
 

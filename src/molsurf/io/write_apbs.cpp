@@ -2,7 +2,7 @@
 #include "molsurf/io/write_apbs.h"
 
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/dx_array.h"
 #include "molsurf/structure/load_text.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/io/write_mesh.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/output_buffer.h"
 #include "molsurf/io/ply_layout.h"

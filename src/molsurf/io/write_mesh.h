@@ -5,7 +5,7 @@
 /// Mesh files. They hold the mesh and nothing else: no time, path or command line, so that the same
 /// mesh gives the same bytes.
 
-#include "molsurf/io/holds.h"
+#include "molsurf/io/file_content.h"
 #include "molsurf/io/output_file.h"
 #include "molsurf/mesh.h"
 

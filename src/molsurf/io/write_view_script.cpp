@@ -2,7 +2,7 @@
 #include "molsurf/io/write_view_script.h"
 
 #include "molsurf/color/palette.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/io/output_buffer.h"
 
 #include <algorithm>

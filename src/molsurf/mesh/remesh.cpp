@@ -2,8 +2,8 @@
 #include "molsurf/mesh/remesh.h"
 
 #include "molsurf/core/cancel.h"
+#include "molsurf/core/orthonormal_basis.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/perpendicular.h"
 #include "molsurf/mesh/half_edges.h"
 
 #include <tbb/parallel_sort.h>

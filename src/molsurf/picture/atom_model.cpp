@@ -3,8 +3,8 @@
 
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/color/palette.h"
-#include "molsurf/core/perpendicular.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/orthonormal_basis.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
 #include "molsurf/structure/element.h"

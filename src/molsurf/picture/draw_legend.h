@@ -24,7 +24,7 @@ int legendWidth(const std::vector<Legend>& legends, int width);
 
 /// The picture with legends in a column on its right, each a bar with its range and unit and what
 /// has no value, or names and their colours; of more names than have room, the first ones and "+"
-/// how many more there are. Letters are black on a light background and white on a dark one.
+/// how many more there are. TextCursor are black on a light background and white on a dark one.
 ///
 /// @param[in] width  of the whole: picture.width + legendWidth()
 Picture withLegends(const Picture& picture, const std::vector<Legend>& legends, int width,

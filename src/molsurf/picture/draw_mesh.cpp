@@ -3,8 +3,8 @@
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/picture/draw_notes.h"
-#include "molsurf/picture/layer.h"
 #include "molsurf/picture/outline.h"
+#include "molsurf/picture/ray_tracer.h"
 #include "molsurf/picture/style.h"
 #include "molsurf/picture/view.h"
 

@@ -9,8 +9,8 @@
 namespace molsurf
 {
 
-/// Draws notes: a text above its point, or a line between two points with their distance. Letters
-/// are as large as those of legends, with a rim of the other colour.
+/// Draws notes: a text above its point, or a line between two points with their distance.
+/// TextCursor are as large as those of legends, with a rim of the other colour.
 /// @param[in] width  of the whole picture, with what is beside the mesh [pixel]
 void drawNotes(const std::vector<PictureNote>& notes, const View& view, int width,
                Picture& picture);

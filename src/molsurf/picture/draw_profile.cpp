@@ -2,7 +2,7 @@
 #include "molsurf/picture/draw_profile.h"
 
 #include "molsurf/color/pore_color.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/picture/font.h"
 
 #include <algorithm>

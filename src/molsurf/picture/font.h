@@ -30,7 +30,7 @@ public:
     /// From one line to the next [pixel].
     int lineHeight() const;
 
-    /// Width of a text in UTF-8 [pixel]. Letters that the font lacks have an empty box.
+    /// Width of a text in UTF-8 [pixel]. TextCursor that the font lacks have an empty box.
     int width(const std::string& text) const;
 
     /// Writes a line of text; what lies outside the picture is left out.

@@ -2,7 +2,7 @@
 #include "molsurf/picture/legend_svg.h"
 
 #include "molsurf/core/markup.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/font.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/picture/style.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 
 namespace molsurf
 {

@@ -5,7 +5,7 @@
 #include "molsurf/color/color_table.h"
 #include "molsurf/color/palette.h"
 #include "molsurf/core/markup.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/io/part_ranges.h"
 #include "molsurf/picture/viewer_text.h"

@@ -2,7 +2,7 @@
 #include "molsurf/pipeline/carrier_of.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/levelset/carrier.h"
+#include "molsurf/levelset/smooth_level_function.h"
 #include "molsurf/pipeline/surface_kind.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "molsurf/pipeline/check_balls.h"
 
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/pipeline/surface_kind.h"
 

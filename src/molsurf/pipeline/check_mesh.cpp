@@ -2,7 +2,7 @@
 #include "molsurf/pipeline/check_mesh.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/kernel.h"
 #include "molsurf/mesh/measure.h"

@@ -2,7 +2,7 @@
 #include "molsurf/pipeline/pose_error.h"
 
 #include "molsurf/core/quiet_progress.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/flow/evolve.h"
 #include "molsurf/pipeline/surface_kind.h"

@@ -2,7 +2,7 @@
 #include "molsurf/pipeline/remesh_run.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/mesh_shape.h"

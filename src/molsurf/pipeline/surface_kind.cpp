@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pipeline/surface_kind.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
+#include "molsurf/flow/equilibrium.h"
 #include "molsurf/flow/evolve.h"
-#include "molsurf/flow/rest.h"
 #include "molsurf/levelset/round_ridges.h"
 
 #include <algorithm>
@@ -136,7 +136,7 @@ EvolveOptions flowOptions(const SurfaceSpec& spec)
     EvolveOptions evolution = spec.evolution;
     evolution.splineLevel = spec.splineLevel;
     // The closed form is at rest to 0.005 Å, and to 0.017 h^2 [1/Å] on voxels up to 1 Å, where the
-    // tolerance stands for 2 Å: judgeRest(). What asks for more gets steps.
+    // tolerance stands for 2 Å: checkConvergence(). What asks for more gets steps.
     constexpr double finest = 0.0025, byVoxel = 0.0085; // the latter [1/Å^2]
     const double voxel = std::min(1.0, spec.voxel);
     const double least = std::max(finest, byVoxel * voxel * voxel);

@@ -2,12 +2,12 @@
 #include "molsurf/pipeline/surface_run.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
+#include "molsurf/flow/equilibrium.h"
 #include "molsurf/flow/initial_surface.h"
 #include "molsurf/flow/interface_energy.h"
 #include "molsurf/flow/refine.h"
-#include "molsurf/flow/rest.h"
 #include "molsurf/levelset/redistance.h"
 #include "molsurf/levelset/reinitialize.h"
 #include "molsurf/levelset/round_ridges.h"
@@ -138,7 +138,7 @@ void SurfaceRun::rest()
     const RestingLevels rest{levels, slope};
     displacements_ = waysToRest(psi, rest, *sum_, weights, scope_.region, progress_);
     EvolutionReport& report = result_.report.evolution.emplace();
-    judgeRest(displacements_, evolution, options_.voxel, report);
+    checkConvergence(displacements_, evolution, options_.voxel, report);
     if (scope_.region.whole()) report.gaps = gaps_;
     carryLevels(rest, bandWidthVox * options_.voxel, psi, progress_);
     watch_.stop("evolve");

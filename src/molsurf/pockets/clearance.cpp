@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pockets/clearance.h"
 
-#include "molsurf/core/perpendicular.h"
+#include "molsurf/core/orthonormal_basis.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/pockets/clearance.h"
 #include "molsurf/pockets/pore_ways.h"
 #include "molsurf/pockets/void_graph.h"

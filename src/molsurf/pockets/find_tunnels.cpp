@@ -3,7 +3,7 @@
 
 #include "molsurf/balls/depth.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/pockets/clearance.h"
 #include "molsurf/pockets/find_pore.h"

@@ -4,7 +4,7 @@
 /// @file
 /// Volumes, walls and mouths of the parts of a space.
 
-#include "molsurf/pockets/basins.h"
+#include "molsurf/pockets/watershed.h"
 #include "molsurf/progress.h"
 
 #include <openvdb/Types.h>

@@ -4,8 +4,8 @@
 /// @file
 /// How large a ball gets out of a pocket.
 
-#include "molsurf/pockets/basins.h"
 #include "molsurf/pockets/measure_basins.h"
+#include "molsurf/pockets/watershed.h"
 #include "molsurf/progress.h"
 
 #include <openvdb/Types.h>

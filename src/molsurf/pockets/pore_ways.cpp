@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/pockets/pore_ways.h"
 
-#include "molsurf/core/perpendicular.h"
+#include "molsurf/core/orthonormal_basis.h"
 #include "molsurf/pockets/void_paths.h"
 
 #include <algorithm>

@@ -23,7 +23,7 @@ using DepthAt = std::function<OuterDepth::Depth(const openvdb::Vec3d&, double)>;
 /// The same, below a cut.
 using BelowCut = DepthAt;
 
-using PocketOptions = Wanted::PocketRule;
+using PocketOptions = Products::PocketRule;
 
 /// Two distances on voxels. Where one of the corners of a cell has room, all of them are known.
 struct VoidField {

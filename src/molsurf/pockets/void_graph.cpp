@@ -4,7 +4,7 @@
 #include "molsurf/balls/ball_boundary.h"
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/balls/placed_ball.h"
-#include "molsurf/core/perpendicular.h"
+#include "molsurf/core/orthonormal_basis.h"
 #include "molsurf/pockets/void_curve.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/choose_copies.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/symmetry.h"
 #include "molsurf/structure/text_fields.h"
@@ -23,7 +23,7 @@ using std::string_view;
 
 constexpr string_view foldWord = "fold:";
 
-[[noreturn]] void misuse(const std::string& text)
+[[noreturn]] void usageError(const std::string& text)
 {
     throw Error(ErrorKind::Usage, "`copies`: expected numbers from 1 such as 1,7,20-25, or fold:N "
                                   "with N from 2, got " +
@@ -40,12 +40,12 @@ std::pair<int, int> parseRange(string_view item, const std::string& text)
 {
     const std::size_t dash = item.find('-');
     int first = 0, last = 0;
-    if (!parseInteger(trimmed(item.substr(0, dash)), first)) misuse(text);
+    if (!parseInteger(trimmed(item.substr(0, dash)), first)) usageError(text);
     last = first;
     if (dash != string_view::npos && !parseInteger(trimmed(item.substr(dash + 1)), last)) {
-        misuse(text);
+        usageError(text);
     }
-    if (first < 1 || last < first) misuse(text);
+    if (first < 1 || last < first) usageError(text);
     return {first, last};
 }
 
@@ -110,7 +110,7 @@ CopyChoice parseCopies(const std::string& text)
     if (text.rfind(foldWord, 0) == 0) {
         if (!parseInteger(string_view(text).substr(foldWord.size()), choice.fold) ||
             choice.fold < 2) {
-            misuse(text);
+            usageError(text);
         }
         return choice;
     }
@@ -133,7 +133,7 @@ void checkCopies(const CopyChoice& copies)
 {
     bool good = copies.fold == 0 || (copies.fold > 1 && copies.ranges.empty());
     for (const auto& [first, last] : copies.ranges) good = good && first >= 1 && last >= first;
-    if (!good) misuse(textOf(copies));
+    if (!good) usageError(textOf(copies));
 }
 
 const RotationAxis* nearestAxis(const Symmetry& symmetry, int fold, const Vec3d& point)

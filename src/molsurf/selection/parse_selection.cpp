@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/parse_selection.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/selection_phrase.h"
 #include "molsurf/structure/element.h"
@@ -52,10 +52,10 @@ bool hasAtom(const Structure& s, const std::string& name)
 }
 
 /// The letters of a text and a place in it.
-class Letters
+class TextCursor
 {
 public:
-    explicit Letters(const std::string& text) : text_(text) {}
+    explicit TextCursor(const std::string& text) : text_(text) {}
 
     std::size_t at() const { return at_; }
     void goTo(std::size_t at) { at_ = at; }
@@ -131,7 +131,7 @@ public:
     [[noreturn]] void fail(const std::string& expected, const std::string& hint = "",
                            std::size_t at = std::string::npos) const
     {
-        Letters here = *this;
+        TextCursor here = *this;
         if (at != std::string::npos) here.goTo(at);
         here.skipBlanks();
         const string_view got = here.token();
@@ -155,7 +155,7 @@ private:
 class ValueReader
 {
 public:
-    ValueReader(Letters& in, const Structure& structure, const PropertyWord& property,
+    ValueReader(TextCursor& in, const Structure& structure, const PropertyWord& property,
                 string_view word)
         : in_(in), structure_(structure), property_(property), word_(word)
     {
@@ -340,7 +340,7 @@ private:
         return inRanges(property_, std::move(found));
     }
 
-    Letters& in_;
+    TextCursor& in_;
     const Structure& structure_;
     const PropertyWord& property_;
     std::string word_;
@@ -716,7 +716,7 @@ private:
         in_.fail("a word such as protein, chain or within", hintOn(std::string(in_.token())));
     }
 
-    Letters in_;
+    TextCursor in_;
     const Structure& structure_;
     Selection out_;
     int depth_ = 0;

@@ -2,7 +2,7 @@
 #include "molsurf/selection/radii.h"
 
 #include "molsurf/atoms.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/ball_names.h"
 #include "molsurf/selection/select_balls.h"

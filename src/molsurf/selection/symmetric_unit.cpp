@@ -2,7 +2,7 @@
 #include "molsurf/selection/symmetric_unit.h"
 
 #include "molsurf/balls/ball_index.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/rotation_group.h"
 

@@ -5,7 +5,7 @@
 /// The part of a symmetric assembly that its rotations make the whole of, and what is around it.
 
 #include "molsurf/atoms.h"
-#include "molsurf/selection/expand_assembly.h"
+#include "molsurf/selection/assembly.h"
 
 #include <vector>
 

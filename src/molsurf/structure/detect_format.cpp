@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/detect_format.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/structure/binary_cif.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/load_text.h"

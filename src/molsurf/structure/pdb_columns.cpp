@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/pdb_columns.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/structure/element.h"
 #include "molsurf/structure/guess_element.h"
 #include "molsurf/structure/residue_names.h"

@@ -2,7 +2,7 @@
 #include "molsurf/structure/readers.h"
 
 #include "molsurf/core/cancel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/structure/assembly_operators.h"
 #include "molsurf/structure/atom_tree.h"

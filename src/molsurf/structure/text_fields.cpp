@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/structure/text_fields.h"
 
-#include "molsurf/core/may_pass.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 
 #include <algorithm>

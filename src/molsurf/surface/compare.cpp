@@ -2,7 +2,7 @@
 #include "molsurf/surface/compare.h"
 
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/grid/grid_like.h"
 #include "molsurf/levelset/redistance.h"

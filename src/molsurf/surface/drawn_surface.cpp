@@ -3,7 +3,7 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/core/memory.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/picture/draw_legend.h"
 #include "molsurf/picture/panels.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/file_settings.h"
 
-#include "molsurf/io/holds.h"
+#include "molsurf/io/file_content.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/specks.h"
 

@@ -2,7 +2,7 @@
 #include "molsurf/surface/frame_source.h"
 
 #include "molsurf/color/palette.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/match_atoms.h"
 #include "molsurf/selection/select_balls.h"

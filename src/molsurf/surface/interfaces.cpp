@@ -7,8 +7,8 @@
 #include "molsurf/pipeline/influence.h"
 #include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/selection/subset.h"
-#include "molsurf/surface/fit.h"
 #include "molsurf/surface/run.h"
+#include "molsurf/surface/shape_complementarity.h"
 #include "molsurf/surface/whole_run.h"
 
 #include <algorithm>
@@ -38,9 +38,9 @@ Areas areasOf(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls, Progr
         return {std::accumulate(areas.begin(), areas.end(), 0.0), std::move(areas)};
     }
     QuietProgress quiet(progress);
-    Wanted wanted = measuresOfWhole();
+    Products wanted = measuresOfWhole();
     wanted.ballAreas = ofBalls;
-    MolecularSurface made = makePrototypes(atoms, {spec, wanted}, &quiet);
+    MolecularSurface made = makeUnitSurface(atoms, {spec, wanted}, &quiet);
     return {made.report.surface.area, std::move(made.ballAreas)};
 }
 

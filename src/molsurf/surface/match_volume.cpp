@@ -24,7 +24,7 @@ double volumeOf(const BallSet& atoms, const SurfaceSpec& spec, const Progress& p
 {
     QuietProgress quiet(progress);
     try {
-        return makePrototypes(atoms, {spec, measuresOfWhole()}, &quiet).report.surface.outerVolume;
+        return makeUnitSurface(atoms, {spec, measuresOfWhole()}, &quiet).report.surface.outerVolume;
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::Numeric) throw;
         return 0.0; // nothing is left

@@ -24,9 +24,9 @@ void check(bool good, const std::string& option, const std::string& expected, do
     throw Error(ErrorKind::Usage, message.str());
 }
 
-void checkPockets(const Wanted& wanted)
+void checkPockets(const Products& wanted)
 {
-    const Wanted::PocketRule& pocket = wanted.pocket;
+    const Products::PocketRule& pocket = wanted.pocket;
     check(pocket.probeIn >= 0.5 && pocket.probeIn <= 10.0, "`probeIn`", "0.5 to 10 Å",
           pocket.probeIn);
     check(pocket.probeOut > pocket.probeIn && pocket.probeOut <= 50.0, "`probeOut`",

@@ -3,7 +3,7 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/color/value_colors.h"
-#include "molsurf/io/holds.h"
+#include "molsurf/io/file_content.h"
 #include "molsurf/picture/style.h"
 #include "molsurf/picture/view_file.h"
 #include "molsurf/pipeline/surface_kind.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/report.h"
 #include "molsurf/surface/lining.h"
 

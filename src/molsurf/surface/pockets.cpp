@@ -3,7 +3,7 @@
 
 #include "molsurf/color/palette.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/pipeline/surface_run.h"
 #include "molsurf/pockets/find_pockets.h"
 #include "molsurf/surface/field_table.h"
@@ -119,7 +119,7 @@ void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& p
 {
     Stopwatch watch(result.report);
     progress.update("pockets", 0.0);
-    const Wanted::PocketRule& asked = options.pocket;
+    const Products::PocketRule& asked = options.pocket;
     if (options.voxel > 0.5 * asked.probeIn)
         result.report.warnings.push_back(
             formatted("`voxel` %g: pockets that are narrow are lost on voxels above half of "

@@ -2,7 +2,7 @@
 #include "molsurf/surface/pore.h"
 
 #include "molsurf/color/pore_color.h"
-#include "molsurf/core/perpendicular.h"
+#include "molsurf/core/orthonormal_basis.h"
 #include "molsurf/pipeline/surface_run.h"
 #include "molsurf/pockets/find_pore.h"
 

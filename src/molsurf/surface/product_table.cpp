@@ -81,7 +81,7 @@ std::vector<double> areasApart(const BallSet& atoms, const SurfaceSpec& spec, Pr
 {
     if (!isClosedForm(spec)) {
         QuietProgress quiet(progress);
-        Wanted wanted = measuresOfWhole();
+        Products wanted = measuresOfWhole();
         wanted.ballAreas = true;
         return runWhole(atoms, {spec, wanted}, quiet).ballAreas;
     }

@@ -68,7 +68,7 @@ MolecularSurface makeSurface(const std::vector<Ball>& balls, const SurfaceOption
 MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options,
                              Progress* progress)
 {
-    MolecularSurface result = makePrototypes(atoms, options, progress);
+    MolecularSurface result = makeUnitSurface(atoms, options, progress);
     if (atoms.placement.isWhole()) return result;
     const Progress nobody;
     result.mesh = meshOfWhole(atoms, result, progress ? *progress : nobody);
@@ -76,8 +76,8 @@ MolecularSurface makeSurface(const BallSet& atoms, const SurfaceOptions& options
     return result;
 }
 
-MolecularSurface makePrototypes(const BallSet& atoms, const SurfaceOptions& options,
-                                Progress* listener)
+MolecularSurface makeUnitSurface(const BallSet& atoms, const SurfaceOptions& options,
+                                 Progress* listener)
 {
     Progress nobody;
     Progress& progress = listener ? *listener : nobody;

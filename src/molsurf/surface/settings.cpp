@@ -753,19 +753,19 @@ std::vector<Setting> pocketSettings()
              "mesh of each, as by .pockets.ply, .obj, .stl or .glb",
              MOLSURF_OF(options.pockets)),
         number("probe-in", "R", "radius of the probe that gets into pockets [Å], 0.5 to 10",
-               of(&Wanted::PocketRule::probeIn)),
+               of(&Products::PocketRule::probeIn)),
         number("probe-out", "R",
                "radius of the probe that stays out of them [Å], above\n"
                "`probeIn`; larger: shallow ones are found, too",
-               of(&Wanted::PocketRule::probeOut)),
+               of(&Products::PocketRule::probeOut)),
         within(0.0, 50.0,
                number("pocket-cut", "D", "pockets begin so far below the surface of that probe [Å]",
-                      of(&Wanted::PocketRule::cut))),
+                      of(&Products::PocketRule::cut))),
         within(0.0, 1.0,
                number("pocket-neck", "S",
                       "two pockets, where the ball that passes between them has\n"
                       "less than this share of the smaller one's radius; 0: one",
-                      of(&Wanted::PocketRule::neck)))};
+                      of(&Products::PocketRule::neck)))};
 }
 
 std::vector<Setting> flowSettings()

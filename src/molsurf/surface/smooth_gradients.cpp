@@ -2,8 +2,8 @@
 #include "molsurf/surface/smooth_gradients.h"
 
 #include "molsurf/core/parallel.h"
+#include "molsurf/flow/equilibrium.h"
 #include "molsurf/flow/evolve.h"
-#include "molsurf/flow/rest.h"
 #include "molsurf/levelset/gaussian_sum.h"
 #include "molsurf/mesh/patch_gradients.h"
 #include "molsurf/pipeline/carrier_of.h"
@@ -280,7 +280,7 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
                               const Progress& progress)
 {
     constexpr std::size_t chunk = 1024;
-    constexpr double leastShare = 0.2; // of the slope of a lone ball, as in flow/rest.cpp
+    constexpr double leastShare = 0.2; // of the slope of a lone ball, as in flow/equilibrium.cpp
     const EvolveOptions flow = flowOptions(spec);
     const Weights weights = weightsOf(flow);
     const GaussianOptions gaussian = gaussianOptions(spec);

@@ -17,7 +17,7 @@ namespace molsurf
 /// does. A node lies at the offset inside of a point y of the interface F = psi - v = 0 and moves
 /// along its normal as y does, by (dF/dx_i)/|grad F|; with it goes the tangential part of the
 /// atoms' own motion, which changes no surface and lets a translation be one. psi is that of the
-/// Gaussians themselves, and v the level at rest (flow/rest.h). docs/math.md,
+/// Gaussians themselves, and v the level at rest (flow/equilibrium.h). docs/math.md,
 /// section 10.
 ///
 /// @param[in] atoms  as they were meshed, with the rates of their resolutions

@@ -2,7 +2,7 @@
 #include "molsurf/surface/solver_files.h"
 
 #include "molsurf/core/printable.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/selection/point_charges.h"
 #include "molsurf/structure/archive.h"

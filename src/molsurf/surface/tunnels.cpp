@@ -2,7 +2,7 @@
 #include "molsurf/surface/tunnels.h"
 
 #include "molsurf/color/pore_color.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/pipeline/surface_run.h"
 #include "molsurf/pockets/find_tunnels.h"
 #include "molsurf/surface/lining.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/unit_cut.h"
 
+#include "molsurf/core/bracketed_root.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/zero_between.h"
 #include "molsurf/spline/curvature.h"
 
 #include <openvdb/math/Mat3.h>

@@ -4,15 +4,15 @@
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/balls/power_owners.h"
 #include "molsurf/core/disjoint_sets.h"
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
 #include "molsurf/mesh/measure.h"
 #include "molsurf/mesh/topology.h"
 #include "molsurf/pipeline/surface_kind.h"
 #include "molsurf/pipeline/surface_run.h"
-#include "molsurf/surface/fit.h"
 #include "molsurf/surface/label_surface.h"
 #include "molsurf/surface/product_table.h"
+#include "molsurf/surface/shape_complementarity.h"
 #include "molsurf/surface/unit_border.h"
 #include "molsurf/surface/unit_cut.h"
 #include "molsurf/surface/unit_union.h"
@@ -57,8 +57,8 @@ std::vector<Ball> owningBalls(const BallSet& atoms, double grown)
 
 /// Replaces the measures of a whole by those in closed form. How many pieces it has is not known.
 /// @return the areas of balls in all units [Å^2]; 0 for those of neighbours
-std::vector<double> takeClosedForm(const BallSet& atoms, double grown, const Progress& progress,
-                                   SurfaceReport& surface)
+std::vector<double> useClosedForm(const BallSet& atoms, double grown, const Progress& progress,
+                                  SurfaceReport& surface)
 {
     const double order = double(atoms.placement.order());
     UnitShare share = shareOfUnit(atoms, grown, progress);
@@ -80,7 +80,7 @@ MolecularSurface runUnitWithoutGrid(const BallSet& atoms, const SurfaceOptions& 
     progress.update("areas", 0.0);
     result.report.surface.kind = nameOf(options.kind);
     labelSurface(atoms, options,
-                 takeClosedForm(atoms, probeOf(options), progress, result.report.surface), 0.0,
+                 useClosedForm(atoms, probeOf(options), progress, result.report.surface), 0.0,
                  progress, result);
     result.report.symmetry =
         Report::Symmetry{unit.pointGroup, unit.inverse.size(), unit.copies, unit.deviation, 0.0, 0};
@@ -267,7 +267,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     if (isBoundary(options)) {
         surface.meshArea = surface.area;
         surface.meshVolume = surface.volume;
-        known = takeClosedForm(atoms, grown, progress, surface);
+        known = useClosedForm(atoms, grown, progress, surface);
     } else if (isClosedForm(options) || euler != surface.eulerCharacteristic) {
         dropTopology(surface); // the mesh has its own, where borders were glued otherwise
     }

@@ -93,9 +93,9 @@ MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& opti
     return result;
 }
 
-Wanted measuresOfWhole()
+Products measuresOfWhole()
 {
-    Wanted wanted;
+    Products wanted;
     wanted.energy = wanted.meshLabels = false;
     return wanted;
 }

@@ -22,6 +22,6 @@ MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& opti
                                 Progress& progress);
 
 /// Nothing but the level set, the mesh and their measures.
-Wanted measuresOfWhole();
+Products measuresOfWhole();
 
 } // namespace molsurf

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/core/memory.h"
 
-#include "molsurf/core/may_pass.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 
 #include <gtest/gtest.h>

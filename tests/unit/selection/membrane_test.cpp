@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/selection/membrane.h"
 
-#include "molsurf/core/words.h"
+#include "molsurf/core/strings.h"
 #include "molsurf/selection/select_balls.h"
 #include "molsurf/structure/read_structure.h"
 

@@ -43,8 +43,8 @@ private:
 };
 
 /// The message of the Error that `call` throws; fails if it throws none or one of another kind.
-template<typename Call>
-std::string errorOf(ErrorKind kind, Call call)
+template<typename CommandLine>
+std::string errorOf(ErrorKind kind, CommandLine call)
 {
     try {
         call();

@@ -110,7 +110,7 @@ TEST_P(BySymmetry, IsTheWhole)
                     c.name[0] == 'C' ? 50.0 : 1e-3);
         EXPECT_LT(unit.placement.unit->deviation, 1e-4);
 
-        const MolecularSurface a = makePrototypes(unit, options), b = makeSurface(whole, options);
+        const MolecularSurface a = makeUnitSurface(unit, options), b = makeSurface(whole, options);
         const SurfaceReport &found = a.report.surface, &expected = b.report.surface;
         const bool exact = options.kind == SurfaceKind::SolventAccessible ||
                            options.kind == SurfaceKind::VanDerWaals;
@@ -222,7 +222,7 @@ TEST(UnitTopology, IsThatOfTheWholeOrNotKnown)
             makeSurface(selectBalls(s, assembly(false, options)), options);
         ASSERT_EQ(whole.report.surface.eulerCharacteristic, std::optional<int>(2));
         const MolecularSurface unit =
-            makePrototypes(selectBalls(s, assembly(true, options)), options);
+            makeUnitSurface(selectBalls(s, assembly(true, options)), options);
         const SurfaceReport& found = unit.report.surface;
         EXPECT_EQ(found.eulerCharacteristic.value_or(2), 2);
         EXPECT_EQ(found.piecesKnown, found.eulerCharacteristic.has_value());
@@ -254,7 +254,7 @@ TEST(SymmetricUnit, OfAHelix)
     const BallSet unit = selectBalls(s, assembly(true, options));
     EXPECT_EQ(unit.placement.unit->pointGroup, "C3");
     EXPECT_EQ(unit.placement.unit->copies, 5u);
-    const MolecularSurface a = makePrototypes(unit, options);
+    const MolecularSurface a = makeUnitSurface(unit, options);
     const MolecularSurface b = makeSurface(selectBalls(s, assembly(false, options)), options);
     EXPECT_NEAR(a.report.surface.area, b.report.surface.area, 3e-3 * b.report.surface.area);
     EXPECT_NEAR(a.report.surface.volume, b.report.surface.volume, 2e-3 * b.report.surface.volume);
@@ -359,7 +359,7 @@ TEST(SymmetricUnit, OnALatticeIsTheWhole)
         options.grid = false;
         const BallSet unit = selectBalls(s, assembly(true, options));
         const BallSet whole = selectBalls(s, assembly(false, options));
-        const SurfaceReport found = makePrototypes(unit, options).report.surface;
+        const SurfaceReport found = makeUnitSurface(unit, options).report.surface;
         const SurfaceReport expected = makeSurface(whole, options).report.surface;
         EXPECT_NEAR(found.area, expected.area, 1e-6 * expected.area);
         EXPECT_NEAR(found.volume, expected.volume, 1e-6 * expected.volume);
@@ -385,7 +385,7 @@ TEST(SymmetricUnit, GroupsAddUp)
     select.groups = {{"b", "B", {}}};
     const BallSet unit = selectBalls(s, select);
     EXPECT_EQ(unit.labels->chains.size(), 2u); // images have their names
-    const MolecularSurface a = makePrototypes(unit, options);
+    const MolecularSurface a = makeUnitSurface(unit, options);
     select.bySymmetry = false;
     const MolecularSurface b = makeSurface(selectBalls(s, select), options);
     ASSERT_EQ(a.report.groups.size(), b.report.groups.size());
@@ -441,7 +441,7 @@ TEST(SymmetricUnit, ContactsAreThoseOfItsBalls)
     SelectOptions select = assembly(true, options);
     select.names = true;
     const BallSet unit = selectBalls(s, select);
-    const Table table = contactTable(unit, ContactLevel::Atom, makePrototypes(unit, options));
+    const Table table = contactTable(unit, ContactLevel::Atom, makeUnitSurface(unit, options));
     select.bySymmetry = false;
     const MolecularSurface whole = makeSurface(selectBalls(s, select), options);
     double expected = 0.0, found = 0.0;
@@ -470,8 +470,8 @@ TEST(SymmetricUnit, RefusesWhatNeedsTheWhole)
     SurfaceOptions cavities, sas;
     cavities.fillCavities = true;
     sas.fields = {"sas"};
-    EXPECT_THROW(makePrototypes(unit, cavities), Error);
-    EXPECT_THROW(makePrototypes(unit, sas), Error);
+    EXPECT_THROW(makeUnitSurface(unit, cavities), Error);
+    EXPECT_THROW(makeUnitSurface(unit, sas), Error);
 }
 
 /// The vertices of a border lie where those of the neighbour do.
@@ -481,7 +481,7 @@ TEST(SymmetricUnit, BordersMeet)
     Structure s = blob({9.0, 1.0, 0.0}, 6.0, 150, 3);
     s.assemblies = {assemblyOf(dihedral(3))};
     const BallSet unit = selectBalls(s, assembly(true, options));
-    const MolecularSurface a = makePrototypes(unit, options);
+    const MolecularSurface a = makeUnitSurface(unit, options);
     ASSERT_FALSE(a.shared.empty());
     for (const MolecularSurface::SharedVertex& v : a.shared) {
         const Instance& m = unit.placement.instances[std::size_t(v.motion)];
@@ -524,7 +524,7 @@ TEST(SymmetricUnit, SurfacesAreThoseOfTheWhole)
     select.instances = true;
     const BallSet prototype = selectBalls(s, select);
     const MolecularSurface copies = makeSurface(prototype, options);
-    const MolecularSurface one = makePrototypes(prototype, options);
+    const MolecularSurface one = makeUnitSurface(prototype, options);
     ASSERT_EQ(copies.mesh.parts.size(), 6u);
     EXPECT_EQ(copies.mesh.triangles.size(), 6 * one.mesh.triangles.size());
     EXPECT_TRUE(checkTopology(copies.mesh, Progress()).closed);

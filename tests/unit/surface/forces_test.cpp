@@ -2,8 +2,8 @@
 #include "molsurf/surface.h"
 
 #include "molsurf/error.h"
+#include "molsurf/flow/equilibrium.h"
 #include "molsurf/flow/evolve.h"
-#include "molsurf/flow/rest.h"
 #include "molsurf/mesh/patch_gradients.h"
 #include "molsurf/pipeline/carrier_of.h"
 #include "molsurf/pipeline/surface_kind.h"

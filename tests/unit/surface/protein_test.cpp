@@ -15,7 +15,7 @@ namespace
 
 using openvdb::Vec3d;
 
-void say(const char* what, const MolecularSurface& r)
+void printLine(const char* what, const MolecularSurface& r)
 {
     if (!getenv("VERBOSE")) return;
     printf("%s: area %.1f volume %.1f steps %d converged %d rise %.2e residual %.2e euler %d\n",
@@ -29,7 +29,7 @@ TEST(Pipeline, DimerOf1A8O)
     const std::vector<Ball> balls = test::balls("1a8o.cif.gz", "1");
     ASSERT_EQ(balls.size(), 1112u);
     const MolecularSurface result = test::runOn(balls);
-    say("1a8o", result);
+    printLine("1a8o", result);
     const EvolutionReport& flow = *result.report.evolution;
     EXPECT_TRUE(flow.converged);
     EXPECT_LE(flow.steps, 15);
@@ -50,7 +50,7 @@ TEST(PipelineSlow, DimerOf1A8OAgreesWithHalfTheVoxel)
     SurfaceOptions options;
     options.voxel = 0.25;
     const MolecularSurface fine = test::runOn(balls, options);
-    say("1a8o h 0.25", fine);
+    printLine("1a8o h 0.25", fine);
     EXPECT_TRUE(fine.report.evolution->converged);
     EXPECT_LT(test::largestRise(*fine.report.evolution), 1e-3);
     EXPECT_NEAR(fine.report.evolution->finalEnergy / coarse.report.evolution->finalEnergy, 1.0,
@@ -84,7 +84,7 @@ TEST(Pipeline, DimerOf1A8OWithALargeLambda)
     SurfaceOptions options;
     options.evolution.lambda = 0.1;
     const MolecularSurface result = test::runOn(test::balls("1a8o.cif.gz", "1"), options);
-    say("1a8o lambda 0.1", result);
+    printLine("1a8o lambda 0.1", result);
     EXPECT_TRUE(result.report.evolution->converged);
     EXPECT_LE(result.report.evolution->steps, 10);
     // 21,757 and 21,772 on voxels of 0.25 and 0.125 Å.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/choose_locations.h"
+#include "molsurf/selection/alternate_locations.h"
 
 #include <algorithm>
 #include <cmath>

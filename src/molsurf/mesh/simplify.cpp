@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/thin.h"
+#include "molsurf/mesh/simplify.h"
 
 #include "molsurf/core/cancel.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/made_folders.h"
+#include "molsurf/io/output_folders.h"
 
-#include "molsurf/core/may_pass.h"
+#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
 
 #include <algorithm>

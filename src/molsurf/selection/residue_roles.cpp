@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/molecule.h"
+#include "molsurf/selection/residue_roles.h"
 
 #include "molsurf/balls/ball_index.h"
 #include "molsurf/structure/symmetry.h"
@@ -50,8 +50,8 @@ public:
     }
 
     /// Calls with every place that an atom has.
-    template<typename Call>
-    void forEach(std::size_t atom, const Call& call) const
+    template<typename CommandLine>
+    void forEach(std::size_t atom, const CommandLine& call) const
     {
         const Atom& from = structure_.atoms[atom];
         if (!assembly_) return call(from.position);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/carrier.h"
+#include "molsurf/levelset/smooth_level_function.h"
 
 #include "molsurf/flow/initial_surface.h"
 #include "molsurf/levelset/gaussian_sum.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/surface/fit.h"
+#include "molsurf/surface/shape_complementarity.h"
 
 #include "molsurf/selection/groups.h"
 #include "molsurf/surface.h"

@@ -25,7 +25,7 @@ std::string joinWords(const std::vector<std::string>& words, const char* between
 /// Words with commas between, in lines for a help text.
 std::string inLines(const std::vector<std::string>& words);
 
-/// Letters in a line of the help text of an option.
+/// TextCursor in a line of the help text of an option.
 constexpr std::size_t helpWidth = 58;
 
 /// Text in lines of at most `width` letters; lines that it has already stay.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/expand_assembly.h"
+#include "molsurf/selection/assembly.h"
 
 #include "molsurf/error.h"
 #include "molsurf/selection/choose_copies.h"

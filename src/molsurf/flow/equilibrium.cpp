@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/flow/rest.h"
+#include "molsurf/flow/equilibrium.h"
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"

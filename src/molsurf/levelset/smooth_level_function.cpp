@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/carrier.h"
+#include "molsurf/levelset/smooth_level_function.h"
 
 #include "molsurf/core/parallel.h"
 #include "molsurf/core/simd.h"

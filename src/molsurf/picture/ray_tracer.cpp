@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/layer.h"
+#include "molsurf/picture/ray_tracer.h"
 
+#include "molsurf/core/orthonormal_basis.h"
 #include "molsurf/core/parallel.h"
-#include "molsurf/core/perpendicular.h"
 #include "molsurf/io/part_ranges.h"
 
 #include <algorithm>
