@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // How long the search tree of a mesh of a million triangles takes, and a distance from it.
-#include "molsurf/core/parallel.h"
-#include "molsurf/proximity/deviation.h"
+#include "molsurf/analysis/proximity/deviation.h"
+#include "molsurf/kernel/core/parallel.h"
 
 #include <benchmark/benchmark.h>
 

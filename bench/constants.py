@@ -26,7 +26,7 @@ import mutate  # noqa: E402  (its copy of the tree)
 
 TABLE = ROOT / "bench" / "constants.md"
 SECONDS = 30  # that a run may take
-FOLDERS = ("src/molsurf/levelset", "src/molsurf/topology", "src/molsurf/flow")
+FOLDERS = ("src/molsurf/kernel/levelset", "src/molsurf/kernel/topology", "src/molsurf/kernel/flow")
 
 # Sizes of blocks, of registers and of fields of bits, and values that mark what is not known.
 STRUCTURE = set("""lanes dim size count strides edge plane cubeEdge octants width padding padded shift first last unit
@@ -99,7 +99,7 @@ def constants_of(tree, write=False):
             found, changed = constants_in(text, file, len(out))
             if write and changed != text:
                 first = "#pragma once\n" if path.suffix == ".h" else "\n"
-                path.write_text(changed.replace(first, first + '#include "molsurf/core/tuned.h"\n', 1))
+                path.write_text(changed.replace(first, first + '#include "molsurf/kernel/core/tuned.h"\n', 1))
             out += found
     return out
 

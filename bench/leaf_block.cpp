@@ -5,12 +5,12 @@
 /// beside the rate at which memory is copied in the same run. Each pass is checked against its
 /// closed form first: a wrong answer must not win.
 
-#include "molsurf/grid/leaf_block.h"
-#include "molsurf/levelset/curvature.h"
-#include "molsurf/levelset/gaussian_sum.h"
-#include "molsurf/levelset/redistance.h"
-#include "molsurf/levelset/reinitialize.h"
-#include "molsurf/spline/spline.h"
+#include "molsurf/kernel/grid/leaf_block.h"
+#include "molsurf/kernel/levelset/curvature.h"
+#include "molsurf/kernel/levelset/gaussian_sum.h"
+#include "molsurf/kernel/levelset/redistance.h"
+#include "molsurf/kernel/levelset/reinitialize.h"
+#include "molsurf/kernel/spline/spline.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

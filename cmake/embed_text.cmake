@@ -2,7 +2,7 @@
 #   cmake -DOUTPUT=x.cpp -DFOLDER=dir -DSCRIPT=viewer.min.js -P embed_text.cmake
 # Without a SCRIPT its text is null.
 # A literal has 16,000 letters at most, since more need not be taken by a compiler.
-set(text "// Made of the files of viewer/ by cmake/embed_text.cmake.\n#include \"molsurf/picture/viewer_text.h\"\n\nnamespace molsurf\n{\n")
+set(text "// Made of the files of viewer/ by cmake/embed_text.cmake.\n#include \"molsurf/show/picture/viewer_text.h\"\n\nnamespace molsurf\n{\n")
 foreach(entry "viewerPage=page.html" "viewerScript=${SCRIPT}")
   string(REGEX REPLACE "=.*" "" name "${entry}")
   string(REGEX REPLACE ".*=" "" file "${entry}")

@@ -5,8 +5,8 @@
 /// Molecules and surfaces as bytes, for pickles. They are read by the same version of the module
 /// alone; a damaged text is an error.
 
+#include <molsurf/molecule/selection/point_charges.h>
 #include <molsurf/molsurf.h>
-#include <molsurf/selection/point_charges.h>
 
 #include <openvdb/io/Stream.h>
 

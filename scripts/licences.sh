@@ -18,4 +18,4 @@ for library; do
   [[ $package == libboost* ]] ||
     cp "/usr/share/doc/$package/copyright" "$folder/$package"
 done
-cp "$(dirname "$0")/../src/molsurf/picture/viewer/LICENSE.three" "$folder/three.js"
+cp "$(dirname "$0")/../src/molsurf/show/picture/viewer/LICENSE.three" "$folder/three.js"

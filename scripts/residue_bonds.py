@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MPL-2.0
-"""Makes src/molsurf/structure/residue_bonds.inc: the bonds between heavy atoms of residues that files often have.
+"""Makes src/molsurf/molecule/structure/residue_bonds.inc: the bonds between heavy atoms of residues that files often have.
 
     python3 -m venv v && v/bin/pip install biotite==1.6.0 && v/bin/python scripts/residue_bonds.py
 

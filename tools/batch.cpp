@@ -8,12 +8,12 @@
 #include "outputs.h"
 #include "terminal.h"
 
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/io/output_file.h"
-#include "molsurf/io/output_folders.h"
-#include "molsurf/io/read_report.h"
-#include "molsurf/structure/structure_list.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/structure_list.h"
+#include "molsurf/show/io/output_file.h"
+#include "molsurf/show/io/output_folders.h"
+#include "molsurf/show/io/read_report.h"
 
 #include <algorithm>
 #include <filesystem>

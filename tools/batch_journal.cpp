@@ -4,10 +4,10 @@
 #include "outputs.h"
 #include "stop.h"
 
-#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
-#include "molsurf/io/commit.h"
-#include "molsurf/io/output_file.h"
+#include "molsurf/kernel/core/transient_error.h"
+#include "molsurf/show/io/commit.h"
+#include "molsurf/show/io/output_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -4,8 +4,8 @@
 /// @file
 /// The journal of a folder of surfaces, which several runs may share.
 
-#include "molsurf/core/file_descriptor.h"
-#include "molsurf/io/batch_summary.h"
+#include "molsurf/kernel/core/file_descriptor.h"
+#include "molsurf/show/io/batch_summary.h"
 
 #include <chrono>
 #include <cstddef>

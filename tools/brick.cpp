@@ -8,12 +8,12 @@
 #include "stop.h"
 #include "verbs.h"
 
-#include "molsurf/bricks/atoms_file.h"
-#include "molsurf/bricks/brick_file.h"
-#include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/bricks/plan_file.h"
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/scale/bricks/atoms_file.h"
+#include "molsurf/scale/bricks/brick_file.h"
+#include "molsurf/scale/bricks/plan_bricks.h"
+#include "molsurf/scale/bricks/plan_file.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -8,10 +8,10 @@
 #include "outputs.h"
 #include "terminal.h"
 
-#include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/bricks/plan_file.h"
+#include "molsurf/molecule/selection/select_balls.h"
 #include "molsurf/report.h"
-#include "molsurf/selection/select_balls.h"
+#include "molsurf/scale/bricks/plan_bricks.h"
+#include "molsurf/scale/bricks/plan_file.h"
 
 #include <openvdb/openvdb.h>
 

@@ -3,15 +3,15 @@
 #include "stop.h"
 #include "verbs.h"
 
-#include "molsurf/bricks/atoms_file.h"
-#include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/strings.h"
-#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
-#include "molsurf/grid/paged_array.h"
-#include "molsurf/io/commit.h"
-#include "molsurf/io/temporary_file.h"
-#include "molsurf/pipeline/check_balls.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/core/transient_error.h"
+#include "molsurf/kernel/grid/paged_array.h"
+#include "molsurf/kernel/pipeline/check_balls.h"
+#include "molsurf/scale/bricks/atoms_file.h"
+#include "molsurf/scale/bricks/plan_bricks.h"
+#include "molsurf/show/io/commit.h"
+#include "molsurf/show/io/temporary_file.h"
 
 #include <malloc.h>
 #include <unistd.h>

@@ -8,15 +8,15 @@
 #include "terminal.h"
 #include "write_result.h"
 
-#include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/strings.h"
+#include "molsurf/analysis/measures/compare.h"
 #include "molsurf/error.h"
-#include "molsurf/io/read_mesh.h"
-#include "molsurf/io/read_vdb.h"
-#include "molsurf/io/write_comparison.h"
-#include "molsurf/io/write_vdb.h"
-#include "molsurf/structure/text_fields.h"
-#include "molsurf/surface/compare.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/text_fields.h"
+#include "molsurf/scale/bricks/plan_bricks.h"
+#include "molsurf/show/io/read_mesh.h"
+#include "molsurf/show/io/read_vdb.h"
+#include "molsurf/show/io/write_comparison.h"
+#include "molsurf/show/io/write_vdb.h"
 #include "molsurf/surface/run.h"
 
 #include <filesystem>

@@ -7,11 +7,11 @@
 #include "terminal.h"
 #include "write_result.h"
 
-#include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/io/read_vdb.h"
-#include "molsurf/io/write_vdb.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/scale/bricks/plan_bricks.h"
+#include "molsurf/show/io/read_vdb.h"
+#include "molsurf/show/io/write_vdb.h"
 #include "molsurf/surface/stored_surface.h"
 
 namespace molsurf::tool

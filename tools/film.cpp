@@ -3,9 +3,9 @@
 
 #include "outputs.h"
 
-#include "molsurf/core/strings.h"
-#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/core/transient_error.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>

@@ -4,9 +4,9 @@
 /// @file
 /// Films of pictures, coded by the program ffmpeg.
 
-#include "molsurf/core/file_descriptor.h"
-#include "molsurf/io/output_file.h"
-#include "molsurf/picture/draw_mesh.h"
+#include "molsurf/kernel/core/file_descriptor.h"
+#include "molsurf/show/io/output_file.h"
+#include "molsurf/show/picture/draw_mesh.h"
 
 #include <sys/types.h>
 

@@ -6,10 +6,10 @@
 #include "sha256.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/output_file.h"
-#include "molsurf/io/read_report.h"
-#include "molsurf/structure/archive.h"
-#include "molsurf/structure/load_text.h"
+#include "molsurf/molecule/structure/archive.h"
+#include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/show/io/output_file.h"
+#include "molsurf/show/io/read_report.h"
 
 #include <algorithm>
 #include <filesystem>

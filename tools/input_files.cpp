@@ -3,11 +3,11 @@
 
 #include "cli/option_table.h"
 
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/structure/archive.h"
-#include "molsurf/structure/load_text.h"
-#include "molsurf/structure/text_fields.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/archive.h"
+#include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/molecule/structure/text_fields.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -7,10 +7,10 @@
 #include "verbs.h"
 #include "write_result.h"
 
-#include "molsurf/bricks/merged_bricks.h"
-#include "molsurf/bricks/plan_file.h"
 #include "molsurf/error.h"
-#include "molsurf/io/write_report.h"
+#include "molsurf/scale/bricks/merged_bricks.h"
+#include "molsurf/scale/bricks/plan_file.h"
+#include "molsurf/show/io/write_report.h"
 
 #include <utility>
 

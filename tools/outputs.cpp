@@ -9,13 +9,13 @@
 #include "sidecar.h"
 #include "stop.h"
 
-#include "molsurf/core/strings.h"
-#include "molsurf/flow/evolve.h"
-#include "molsurf/io/commit.h"
-#include "molsurf/io/temporary_file.h"
-#include "molsurf/io/write_3mf.h"
-#include "molsurf/picture/write_html.h"
-#include "molsurf/structure/archive.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/flow/evolve.h"
+#include "molsurf/molecule/structure/archive.h"
+#include "molsurf/show/io/commit.h"
+#include "molsurf/show/io/temporary_file.h"
+#include "molsurf/show/io/write_3mf.h"
+#include "molsurf/show/picture/write_html.h"
 
 #include <sys/resource.h>
 

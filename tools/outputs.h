@@ -7,9 +7,9 @@
 #include "cli/call.h"
 #include "terminal.h"
 
-#include "molsurf/io/output_file.h"
+#include "molsurf/molecule/structure/archive.h"
 #include "molsurf/report.h"
-#include "molsurf/structure/archive.h"
+#include "molsurf/show/io/output_file.h"
 
 #include <tbb/global_control.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "picture_atoms.h"
 
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/picture/view_file.h"
-#include "molsurf/selection/ball_names.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/selection/ball_names.h"
+#include "molsurf/show/picture/view_file.h"
 
 #include <algorithm>
 #include <utility>

@@ -5,12 +5,12 @@
 #include "sha256.h"
 #include "verbs.h"
 
-#include "molsurf/bricks/atoms_file.h"
-#include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/bricks/plan_file.h"
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/io/temporary_file.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/scale/bricks/atoms_file.h"
+#include "molsurf/scale/bricks/plan_bricks.h"
+#include "molsurf/scale/bricks/plan_file.h"
+#include "molsurf/show/io/temporary_file.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -6,9 +6,9 @@
 #include "terminal.h"
 #include "verbs.h"
 
-#include "molsurf/core/transient_error.h"
-#include "molsurf/io/output_file.h"
+#include "molsurf/kernel/core/transient_error.h"
 #include "molsurf/progress.h"
+#include "molsurf/show/io/output_file.h"
 
 #include <tbb/global_control.h>
 

@@ -4,11 +4,11 @@
 #include "picture_atoms.h"
 #include "verbs.h"
 
-#include "molsurf/color/palette.h"
 #include "molsurf/error.h"
-#include "molsurf/io/read_mesh.h"
-#include "molsurf/io/read_vdb.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/structure/read_structure.h"
+#include "molsurf/show/color/palette.h"
+#include "molsurf/show/io/read_mesh.h"
+#include "molsurf/show/io/read_vdb.h"
 #include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/solver_files.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "require.h"
 
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/mesh_shape.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/mesh/measure.h"
+#include "molsurf/kernel/mesh/mesh_shape.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "sha256.h"
 
-#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
-#include "molsurf/structure/load_text.h"
+#include "molsurf/kernel/core/transient_error.h"
+#include "molsurf/molecule/structure/load_text.h"
 
 #include <openssl/evp.h>
 

@@ -4,9 +4,9 @@
 #include "write_result.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/frame_files.h"
-#include "molsurf/io/usda_text.h"
-#include "molsurf/io/write_usda_mesh.h"
+#include "molsurf/show/io/frame_files.h"
+#include "molsurf/show/io/usda_text.h"
+#include "molsurf/show/io/write_usda_mesh.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -6,9 +6,9 @@
 
 #include "cli/call.h"
 
-#include "molsurf/io/output_file.h"
-#include "molsurf/io/write_usda.h"
 #include "molsurf/mesh.h"
+#include "molsurf/show/io/output_file.h"
+#include "molsurf/show/io/write_usda.h"
 
 #include <string>
 #include <vector>

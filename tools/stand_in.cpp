@@ -5,9 +5,9 @@
 #include "stop.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/commit.h"
-#include "molsurf/io/temporary_file.h"
 #include "molsurf/progress.h"
+#include "molsurf/show/io/commit.h"
+#include "molsurf/show/io/temporary_file.h"
 
 #include <filesystem>
 #include <memory>

@@ -4,7 +4,7 @@
 /// @file
 /// Functions of the programs that replace others.
 
-#include "molsurf/io/output_file.h"
+#include "molsurf/show/io/output_file.h"
 
 #include <cstddef>
 #include <functional>

@@ -4,9 +4,9 @@
 #include "program.h"
 #include "stop.h"
 
-#include "molsurf/core/printable.h"
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
+#include "molsurf/kernel/core/printable.h"
+#include "molsurf/kernel/core/strings.h"
 
 #include <unistd.h>
 

@@ -9,8 +9,8 @@
 #include "outputs.h"
 #include "terminal.h"
 
+#include "molsurf/molecule/selection/superpose.h"
 #include "molsurf/report.h"
-#include "molsurf/selection/superpose.h"
 #include "molsurf/surface.h"
 
 #include <chrono>

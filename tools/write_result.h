@@ -6,8 +6,8 @@
 
 #include "cli/call.h"
 
-#include "molsurf/color/legend.h"
-#include "molsurf/io/output_file.h"
+#include "molsurf/show/color/legend.h"
+#include "molsurf/show/io/output_file.h"
 #include "molsurf/surface.h"
 
 #include <optional>

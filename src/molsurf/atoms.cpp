@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/atoms.h"
 
-#include "molsurf/selection/match_atoms.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/selection/match_atoms.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/read_structure.h"
 
 #include <numeric>
 #include <utility>

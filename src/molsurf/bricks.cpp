@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/bricks.h"
 
-#include "molsurf/bricks/merged_bricks.h"
-#include "molsurf/bricks/plan_bricks.h"
-#include "molsurf/color/palette.h"
-#include "molsurf/io/commit.h"
-#include "molsurf/pipeline/influence.h"
+#include "molsurf/kernel/pipeline/influence.h"
+#include "molsurf/scale/bricks/merged_bricks.h"
+#include "molsurf/scale/bricks/plan_bricks.h"
+#include "molsurf/show/color/palette.h"
+#include "molsurf/show/io/commit.h"
 
 #include <optional>
 

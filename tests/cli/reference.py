@@ -97,7 +97,7 @@ CASES = [[f"{name} {more} {EVERY}"] for name, more in [
     [f"{C} --fields all --color chain --curvature-totals {EVERY} -o a.obj -o a.stl -o a.off -o a.wrl -o a.vtk -o a.dx -o a.mrc"],
     [f"{C} --surface ses -o a.vert -o a.face -o a.poly -o a.msh -o a.msh2 -o a.3mf -o a.usda -o a.cxc -o a.glb"],
     [f"{C} --surface ses --color element --crisp -o a.ply -o a.obj -o a.legend.svg -o a.pml"],
-    [f"{C} --surface sas --areas atoms,residues,contacts -o a.json -o a.atoms.csv -o a.residues.csv -o a.contacts.csv -o a.cif"],
+    [f"{C} --surface sas --fields depth --areas atoms,residues,contacts -o a.json -o a.atoms.csv -o a.residues.csv -o a.contacts.csv -o a.cif"],
     ["@1crn.pdb --surface ses --walls cavities --voxel 0.7 -o a.ply -o a.msh", f"{C} --walls outer --center --print-scale 0.5 --min-wall 2 -o b.stl"],
     [f"{C} --color bfactor --palette cividis --flat-values -o a.ply -o a.legend.svg", "@selections.pqr --color charge --range -1,1 --outward 2 -o b.ply"],
     [f"{C} --color {color} --surface vdw -o {color}.ply" for color in ("residue", "element", "radius", "depth", "mean-curvature", "hydrophobicity")],

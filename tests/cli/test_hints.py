@@ -136,32 +136,32 @@ MERGE = "vdb_molsurf bricks merge plan.json -o a.vdb"
 
 # {source: [(hint, a call that gives it, calls that follow it...)]}; calls are lines of a shell, in one folder.
 CASES = {
-    "picture/atom_model.cpp": [
+    "show/picture/atom_model.cpp": [
         ('--show "resid 1-9=sticks"', f"vdb_molsurf 1crn.pdb {FAST} --show 'resid 1-9' -o a.png",
          f"vdb_molsurf 1crn.pdb {FAST} --show 'resid 1-9=sticks' -o a.png")],
-    "pipeline/check_balls.cpp": [
+    "kernel/pipeline/check_balls.cpp": [
         ("multiply them by 10", f"vdb_molsurf nm.xyzr {FAST} -o a.ply", f"vdb_molsurf tube.xyzr {FAST} -o b.ply")],
     "tools/draw_result.cpp": [
         ("--show pockets=all", "vdb_molsurf 4at1.ent.gz --voxel 0.7 --surface ses --show pockets --size 60 -o a.png",
          "vdb_molsurf 4at1.ent.gz --voxel 0.7 --surface ses --show pockets=all --size 60 -o b.png")],
-    "picture/view_file.cpp": [
+    "show/picture/view_file.cpp": [
         ("-o NAME.view writes one", f"printf '{{}}' > bad.view; vdb_molsurf 1crn.pdb {FAST} --view bad.view -o a.png",
          f"vdb_molsurf 1crn.pdb {FAST} -o NAME.view; vdb_molsurf 1crn.pdb {FAST} --view NAME.view -o a.png")],
     "tools/picture_atoms.cpp": [
         ("--view X,Y,Z is a direction", f"vdb_molsurf 1crn.pdb {FAST} --view '*' -o a.png",
          f"vdb_molsurf 1crn.pdb {FAST} --view 1,0,0 -o a.png")],
-    "flow/evolve.cpp": [
+    "kernel/flow/evolve.cpp": [
         ("a smaller --lambda", "vdb_molsurf two.xyzr --lambda 1e4 --regularizer area -o a.vdb",
          "vdb_molsurf two.xyzr --lambda 1 --regularizer area -o a.vdb")],
-    "core/strings.cpp": [
+    "kernel/core/strings.cpp": [
         ("did you mean --version?", "vdb_molsurf -version", "vdb_molsurf --version"),
         ("did you mean residue?", "vdb_molsurf 1crn.pdb --color resdiue -o a.ply",
          f"vdb_molsurf 1crn.pdb --color residue {FAST} -o a.ply")],
-    "pipeline/check_mesh.cpp": [
+    "kernel/pipeline/check_mesh.cpp": [
         ("--voxel 0.3", "vdb_molsurf 1ubq.pdb --surface vdw -o a.ply", "vdb_molsurf 1ubq.pdb --surface vdw --voxel 0.38 -o b.ply")],
-    "pipeline/remesh_run.cpp": [
+    "kernel/pipeline/remesh_run.cpp": [
         ("--remesh 0.36", "vdb_molsurf one.xyzr --surface vdw --remesh 1 -o a.ply", "vdb_molsurf one.xyzr --surface vdw --remesh 0.36 -o b.ply")],
-    "pipeline/pose_error.cpp": [
+    "kernel/pipeline/pose_error.cpp": [
         ("--lambda 0.04", "vdb_molsurf 1crn.pdb --lambda 0.1 --voxel 1 -o a.ply", "vdb_molsurf 1crn.pdb --lambda 0.04 --voxel 1 -o b.ply")],
     "surface/settings.cpp": [
         ("--group-by chain --split group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 {FAST} --split chain -o a.ply",
@@ -170,18 +170,18 @@ CASES = {
          f"vdb_molsurf one.xyzr {FAST} --color plain=red -o a.ply"),
         ("all, or some of", "vdb_molsurf 1crn.pdb --fields qqqqqq -o a.vdb",
          "vdb_molsurf 1crn.pdb --fields all --voxel 1 -o a.vdb")],
-    "structure/structure_list.cpp": [
+    "molecule/structure/structure_list.cpp": [
         ("vdb_molsurf one.xyzr -o FILE", "vdb_molsurf batch one.xyzr -O out", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
-    "selection/selection_phrase.cpp": [
+    "molecule/selection/selection_phrase.cpp": [
         ("for example /1/A/53-132 or *;polymer", f"vdb_molsurf 1crn.pdb --select A/x {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select /1/A/5-32 {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select '*;polymer' {FAST} -o b.ply")],
-    "selection/selection_tree.cpp": [
+    "molecule/selection/selection_tree.cpp": [
         ("in quotes * and ? are letters: name C*", f"vdb_molsurf 1crn.pdb --select 'protein and not name \"C*\"' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'protein and not name C*' {FAST} -o b.ply"),
         ("did you mean resname THR? Names have the case of the file", f"vdb_molsurf 1crn.pdb --select 'resname thr ALA' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'resname THR ALA' {FAST} -o b.ply")],
-    "selection/parse_selection.cpp": [
+    "molecule/selection/parse_selection.cpp": [
         ("not known here; write within 2 of S", f"vdb_molsurf 1crn.pdb --select 'name SG extend 1' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'within 2 of name SG' {FAST} -o a.ply"),
         ("(all) is the word", f"vdb_molsurf all.cif --select all {FAST} -o a.ply",
@@ -197,58 +197,58 @@ CASES = {
          f"vdb_molsurf 1crn.pdb --select 'protein and resname THR' {FAST} -o a.ply"),
         ("name CA", f"vdb_molsurf 1crn.pdb --select 'protein and CA' {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --select 'protein and name CA' {FAST} -o a.ply")],
-    "selection/match_atoms.cpp": [
+    "molecule/selection/match_atoms.cpp": [
         ("all, element C, name C1", f"vdb_molsurf two.xyz --select 'chain A' {FAST} -o a.ply",
          *(f"vdb_molsurf two.xyz --select '{phrase}' {FAST} --force -o a.ply"
            for phrase in ("all", "element C", "name C1", "index 0 to 9", "within 5 of index 0")))],
-    "structure/detect_format.cpp": [
+    "molecule/structure/detect_format.cpp": [
         ("give the structure, and this file with --trajectory", "vdb_molsurf 1d3z.xtc -o a.ply",
          f"vdb_molsurf 1d3z.pdb.gz --model 1 --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply")],
-    "structure/load_text.cpp": [
+    "molecule/structure/load_text.cpp": [
         ("--max-input 10G", "vdb_molsurf 1crn.pdb -o a.ply --max-input 9K",
          f"vdb_molsurf 1crn.pdb {FAST} -o a.ply --max-input 10G"),
         ("--max-input 10G", "vdb_molsurf compare solid.ply solid.ply --max-input 100",
          "vdb_molsurf compare solid.ply solid.ply --max-input 10G")],
-    "structure/archive.cpp": [
+    "molecule/structure/archive.cpp": [
         ("a larger --max-input", "tar chf in.tar 1crn.pdb; vdb_molsurf in.tar::1crn.pdb -o a.ply --max-input 9K",
          f"vdb_molsurf in.tar::1crn.pdb {FAST} -o a.ply --max-input 1M")],
-    "io/read_ply.cpp": [
+    "show/io/read_ply.cpp": [
         ("save it without strips", "vdb_molsurf compare strips.ply solid.ply",
          "vdb_molsurf compare solid.ply solid.ply")],
-    "io/write_structure.cpp": [
+    "show/io/write_structure.cpp": [
         ("-o FILE.cif", "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.pdb",
          "vdb_molsurf 1a8o.cif.gz --assembly 1 -o a.cif"),
         ("-o FILE.atoms.csv", "vdb_molsurf one.xyzr -o a.pdb", "vdb_molsurf one.xyzr -o a.atoms.csv")],
-    "io/output_file.cpp": [
+    "show/io/output_file.cpp": [
         ("a shorter name", f"vdb_molsurf one.xyzr {FAST} -o $(printf %300s | tr ' ' a).ply",
          f"vdb_molsurf one.xyzr {FAST} -o $(printf %20s | tr ' ' a).ply"),
         ("--force", f"touch a.ply; vdb_molsurf one.xyzr {FAST} -o a.ply",
          f"vdb_molsurf one.xyzr {FAST} -o a.ply --force"),
         ("make the folder first", f"vdb_molsurf one.xyzr {FAST} -o new/a.ply",
          f"mkdir new && vdb_molsurf one.xyzr {FAST} -o new/a.ply")],
-    "io/frame_table.cpp": [
+    "show/io/frame_table.cpp": [
         ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
-    "bricks/plan_bricks.cpp": [
+    "scale/bricks/plan_bricks.cpp": [
         (f"--memory {65 if LIBRARY else 35}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply",
          f"vdb_molsurf 1crn.pdb --voxel 2 --memory {65 if LIBRARY else 35}M -o a.ply"),
         ("or a larger --voxel", f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 0.1 -o a.ply",
          f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 2 -o a.ply")],
-    "bricks/plan_bricks.h": [
+    "scale/bricks/plan_bricks.h": [
         ("a larger --voxel, or --max-hours 1", "vdb_molsurf 1crn.pdb --voxel 0.3 --max-hours 1e-5 -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 0.3 --max-hours 1 -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 4 --max-hours 1e-5 -o b.ply")],
-    "bricks/plan_file.cpp": [
+    "scale/bricks/plan_file.cpp": [
         ("bricks plan writes one", "vdb_molsurf bricks run copies.json 1",
          f"{PLAN} && vdb_molsurf bricks run plan.json 1")],
-    "core/memory.cpp": [
+    "kernel/core/memory.cpp": [
         ("--memory ", "vdb_molsurf 1a8o.cif.gz --memory 10M -o a.ply", "vdb_molsurf 1a8o.cif.gz --memory 200M -o a.ply")],
-    "bricks/atoms_file.cpp": [
+    "scale/bricks/atoms_file.cpp": [
         ("it has to lie beside the plan", f"{PLAN}; mkdir sub; mv plan.json sub; vdb_molsurf bricks run sub/plan.json 1",
          "mv plan.atoms sub; vdb_molsurf bricks run sub/plan.json 1"),
         ("bricks plan writes one", f"{PLAN}; echo junk > plan.atoms; vdb_molsurf bricks run plan.json 1",
          f"{PLAN} --force && vdb_molsurf bricks run plan.json 1")],
-    "bricks/brick_file.cpp": [
+    "scale/bricks/brick_file.cpp": [
         ("run the brick again with --force", f"{PLAN}; {RUN}; echo junk >> plan.1.brick; {MERGE}",
          f"vdb_molsurf bricks run plan.json 1 --force && {MERGE}")],
     "surface/product_table.cpp": [
@@ -266,7 +266,7 @@ CASES = {
          f"vdb_molsurf 1d3z.pdb.gz --trajectory 1d3z.xtc --frames 1 {FAST} -o a.ply"),
         ("--frames FIRST-", f"vdb_molsurf 1d3z.pdb.gz --frames 10-99 {FAST} -o a.ply",
          f"vdb_molsurf 1d3z.pdb.gz --frames 10- {FAST} -o a.ply")],
-    "pipeline/surface_kind.cpp": [
+    "kernel/pipeline/surface_kind.cpp": [
         ("a --voxel of 0.15", "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 1 -o a.ply",
          "vdb_molsurf tiny.xyzr --probe 0.1 --voxel 0.15 -o a.ply"),
         ("a --voxel of 0.05", "vdb_molsurf dot.xyzr --surface vdw --voxel 2 -o a.ply",
@@ -298,11 +298,11 @@ CASES = {
          f"vdb_molsurf 1crn.pdb {FAST} --color bfactor --palette turbo --fields spline,Cd -o b.vdb && vdb_molsurf convert b.vdb -o b.ply"),
         ("--fields spline when it is built", f"vdb_molsurf one.xyzr {FAST} -o a.vdb; vdb_molsurf convert a.vdb -o a.ply",
          f"vdb_molsurf one.xyzr {FAST} --fields spline -o b.vdb && vdb_molsurf convert b.vdb -o b.ply")],
-    "surface/compare.cpp": [
+    "analysis/measures/compare.cpp": [
         ("vdb_molsurf info FILE.vdb", f"vdb_molsurf one.xyzr {FAST} -o a.vdb && "
          "sed 's/level set/level sea/g; s/surface/surfeit/g' a.vdb > b.vdb; vdb_molsurf compare b.vdb one.xyzr",
          "vdb_molsurf info b.vdb | grep surfeit")],
-    "selection/select_balls.cpp": [
+    "molecule/selection/select_balls.cpp": [
         ('--select "not resname ATP" leaves them out', f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' {FAST} -o a.json",
          f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' --select 'not resname ATP' {FAST} -o b.json"),
         ("--waters keeps it", f"vdb_molsurf 1a8o.cif.gz --select water {FAST} -o a.ply",
@@ -322,20 +322,20 @@ CASES = {
     "surface/field_table.cpp": [
         ("--color bfactor", f"vdb_molsurf 1crn.pdb {FAST} --fields value -o a.vdb",
          f"vdb_molsurf 1crn.pdb {FAST} --fields value --color bfactor -o a.vdb")],
-    "color/palette.cpp": [
+    "show/color/palette.cpp": [
         ("--color entity", f"vdb_molsurf 1crn.pdb --group-by residues:1 --color group {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --color entity {FAST} -o b.ply")],
-    "selection/ball_values.cpp": [
+    "molecule/selection/ball_values.cpp": [
         ("--range", f"vdb_molsurf 1crn.pdb --color occupancy {FAST} -o a.ply",
          f"vdb_molsurf 1crn.pdb --color occupancy --range 0,1 {FAST} -o b.ply"),
         ("with --range they are B factors", f"vdb_molsurf predicted.pdb --color bfactor {FAST} -o a.ply",
          f"vdb_molsurf predicted.pdb --color bfactor --range 60,80 {FAST} -o b.ply")],
-    "selection/symmetric_unit.cpp": [
+    "molecule/selection/symmetric_unit.cpp": [
         ("without --by-symmetry", f"vdb_molsurf moved.pdb --assembly 1 --by-symmetry {FAST} -o a.ply",
          f"vdb_molsurf moved.pdb --assembly 1 {FAST} -o a.ply"),
         ("without --by-symmetry", f"vdb_molsurf bent.pdb --assembly 1 --by-symmetry {FAST} -o a.ply",
          f"vdb_molsurf bent.pdb --assembly 1 {FAST} -o a.ply")],
-    "selection/groups.cpp": [
+    "molecule/selection/groups.cpp": [
         ("name, select, color, copies", f"vdb_molsurf 1crn.pdb --groups groups.json {FAST} -o a.ply",
          f"sed -i s/colour/color/ groups.json; vdb_molsurf 1crn.pdb --groups groups.json {FAST} -o a.ply")],
     "tools/input_files.cpp": [
@@ -378,12 +378,12 @@ CASES = {
         ("make a new one", f"{PLAN}; cp plan.atoms kept; {PLAN} --force --radii alvarez; cp kept plan.atoms; "
          "vdb_molsurf bricks run plan.json 1",
          f"{PLAN} --force; vdb_molsurf bricks run plan.json 1")],
-    "pockets/find_pore.cpp": [
+    "analysis/pockets/find_pore.cpp": [
         ("its ends, as --pore 'X,Y,Z -> X,Y,Z'", "vdb_molsurf 1grm.pdb.gz --pore x -o a.pore.csv",
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv"),
         ("ends where atoms are on all sides, or in front of the mouths", "vdb_molsurf 1grm.pdb.gz --pore '22,-12,3 -> 22,12,3' -o a.pore.csv",
          "vdb_molsurf 1grm.pdb.gz --pore '0,-12.5,3 -> 0,12.5,3' -o a.pore.csv")],
-    "pockets/find_tunnels.cpp": [
+    "analysis/pockets/find_tunnels.cpp": [
         ("atoms beside it, as resid 57, or a smaller --tunnel-probe", "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,0,3 -o a.tunnels.csv",
          "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnels.csv"),
         ("a larger --probe-out", "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,40,3 -o a.tunnels.csv",
@@ -494,7 +494,7 @@ CASES = {
          "vdb_molsurf bricks run plan.json 1"),
         ("vdb_molsurf bricks merge plan.json -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge",
          "vdb_molsurf bricks merge plan.json -o surface.vdb")],
-    "picture/legend_svg.cpp": [
+    "show/picture/legend_svg.cpp": [
         ("--color chain", f"vdb_molsurf 1crn.pdb {FAST} -o a.legend.svg", f"vdb_molsurf 1crn.pdb {FAST} --color chain -o a.legend.svg")],
     "tools/film.cpp": [
         ("-o NAME.png writes the pictures one by one", f"PATH=/none \"$(command -v vdb_molsurf)\" one.xyzr {FAST} -o x.mp4 --turntable 2",
@@ -608,30 +608,30 @@ CASES = {
 
 # Hints that no case follows, by a part of their text, and why.
 UNTRIED = {
-    "balls/bead_radii.cpp": {"atoms more than once": "no atoms are known that give it"},
-    "bricks/merged_bricks.cpp": {"run the bricks again": "it takes bricks of two programs"},
-    "io/commit.cpp": {"remove ": "cli.hints.preload follows it"},
-    "io/output_file.cpp": {"free some space": "it takes a full disk, as cli.faults.mount has it",
+    "kernel/balls/bead_radii.cpp": {"atoms more than once": "no atoms are known that give it"},
+    "scale/bricks/merged_bricks.cpp": {"run the bricks again": "it takes bricks of two programs"},
+    "show/io/commit.cpp": {"remove ": "cli.hints.preload follows it"},
+    "show/io/output_file.cpp": {"free some space": "it takes a full disk, as cli.faults.mount has it",
                            "choose a folder": "cli.hints.user follows it"},
-    "io/ply_layout.cpp": {"a larger `voxel`": "it takes a mesh of 2^31 vertices"},
-    "io/write_glb.cpp": {"write .ply": "it takes a mesh of 4 GiB"},
-    "io/write_mesh.cpp": {"write .obj": "it takes a mesh of 2^32 triangles"},
-    "io/write_volume.cpp": {"larger voxels": "it takes a box of 2^31 points"},
-    "selection/point_charges.cpp": {"the program pdb2pqr makes one": "it takes pdb2pqr"},
-    "selection/select_balls.cpp": {"`trajectory` FILE.dcd": "cli.formats follows it"},
-    "structure/detect_format.cpp": {"take .bcif.gz": "it takes the Protein Data Bank", "in PyMOL": "it takes PyMOL",
+    "show/io/ply_layout.cpp": {"a larger `voxel`": "it takes a mesh of 2^31 vertices"},
+    "show/io/write_glb.cpp": {"write .ply": "it takes a mesh of 4 GiB"},
+    "show/io/write_mesh.cpp": {"write .obj": "it takes a mesh of 2^32 triangles"},
+    "show/io/write_volume.cpp": {"larger voxels": "it takes a box of 2^31 points"},
+    "molecule/selection/point_charges.cpp": {"the program pdb2pqr makes one": "it takes pdb2pqr"},
+    "molecule/selection/select_balls.cpp": {"`trajectory` FILE.dcd": "cli.formats follows it"},
+    "molecule/structure/detect_format.cpp": {"take .bcif.gz": "it takes the Protein Data Bank", "in PyMOL": "it takes PyMOL",
                                     "gmx editconf": "it takes GROMACS", "cpptraj": "it takes AmberTools",
                                     "MDAnalysis turns": "it takes MDAnalysis", "ASE turns": "it takes ASE", "Open Babel": "it takes Open Babel",
                                     "git lfs": "it takes Git LFS", "download the file": "it takes the network",
                                     "take .cif.gz": "it takes the Protein Data Bank", "structconvert": "it takes RDKit",
                                     "the file of the coordinates": "it takes the Protein Data Bank",
                                     "unzip": "it takes unzip", "tar -xf": "it takes a tar archive", "unzstd": "it takes zstd", "uncompress": "it takes gzip"},
-    "structure/trajectory.cpp": {"gmx trjconv": "it takes GROMACS", "cpptraj writes": "it takes AmberTools", "MDAnalysis or": "it takes MDAnalysis"},
-    "structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
-    "selection/superpose.cpp": {"`select` takes one chain of each": "cli.superpose follows it"},
-    "pipeline/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
-    "pipeline/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
-    "surface/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},
+    "molecule/structure/trajectory.cpp": {"gmx trjconv": "it takes GROMACS", "cpptraj writes": "it takes AmberTools", "MDAnalysis or": "it takes MDAnalysis"},
+    "molecule/structure/read_ligand.cpp": {"Open Babel": "it takes Open Babel"},
+    "molecule/selection/superpose.cpp": {"`select` takes one chain of each": "cli.superpose follows it"},
+    "kernel/pipeline/check_balls.cpp": {"`voxel`": "cli.hints.memory follows it"},
+    "kernel/pipeline/check_mesh.cpp": {"a smaller `voxel`": "no atoms are known that give it"},
+    "analysis/measures/compare.cpp": {"write .ply instead": "the program refuses it before the library does"},
     "surface/options.cpp": {"`kind` ses": "the program never asks for it"},
     "surface/product_table.cpp": {"`surface` sas": "the program refuses it before the library does"},
     "surface/unit_mesh.cpp": {"a .glb file": "it takes a mesh of 2^32 vertices", "a larger `voxel`": "it takes copies of 2^32 vertices"},
@@ -716,7 +716,7 @@ class Hints(Followed):
         call = f"vdb_molsurf one.xyzr {FAST} -q --force -o a.ply -o a.json"
         # A path with a space would be two.
         faulty = 'LD_LIBRARY_PATH="$(dirname "$FAULTY_SYSTEM")" LD_PRELOAD=$(basename "$FAULTY_SYSTEM")'
-        self.follow("io/commit.cpp", "remove ./.vdb_molsurf.",
+        self.follow("show/io/commit.cpp", "remove ./.vdb_molsurf.",
                     f"{faulty} FAULTY_KILL=2 {call}; {faulty} FAULTY_EIO=1- {call}",
                     f"rm .vdb_molsurf.*.commit; {faulty} {call}")
 
@@ -724,12 +724,12 @@ class Hints(Followed):
     def test_folder_of_another_user(self):
         user = "setpriv --reuid 65534 --regid 65534 --clear-groups " if os.geteuid() == 0 else ""
         call = f"chmod 777 .; {user}vdb_molsurf one.xyzr {FAST} -o"
-        self.follow("io/output_file.cpp", "choose a folder you may write to", f"mkdir -m 555 shut; {call} shut/a.ply",
+        self.follow("show/io/output_file.cpp", "choose a folder you may write to", f"mkdir -m 555 shut; {call} shut/a.ply",
                     f"{call} a.ply")
 
     @needs("memory")
     def test_little_memory(self):
-        self.follow("bricks/plan_bricks.h", "or --memory 0.31G, which makes it in bricks",
+        self.follow("scale/bricks/plan_bricks.h", "or --memory 0.31G, which makes it in bricks",
                     "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.25 -o a.vdb",
                     "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.4 -o b.vdb",
                     "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.25 --memory 0.31G -o c.vdb")
@@ -746,7 +746,7 @@ class Hints(Followed):
                     "ulimit -v 800000; vdb_molsurf_nanoshaper fine.prm",
                     "ulimit -v 800000; vdb_molsurf_nanoshaper coarse.prm",
                     "ulimit -v 800000; vdb_molsurf_nanoshaper few.prm")
-        self.follow("pipeline/check_balls.cpp", "--voxel 0.5",
+        self.follow("kernel/pipeline/check_balls.cpp", "--voxel 0.5",
                     "ulimit -v 500000; vdb_molsurf ball.xyzr --surface sas --voxel 0.05 -o a.ply",
                     "ulimit -v 500000; vdb_molsurf ball.xyzr --surface sas --voxel 0.5 -o a.ply")
 

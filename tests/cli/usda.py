@@ -131,7 +131,7 @@ def read_usda(text):
 
 
 def faults(text):
-    """Lines on what is wrong, by the rules of src/molsurf/io/write_usda_instances.h."""
+    """Lines on what is wrong, by the rules of src/molsurf/show/io/write_usda_instances.h."""
     meta, roots = read_usda(text)
     out = []
 

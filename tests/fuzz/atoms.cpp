@@ -5,8 +5,8 @@
 
 #include "input.h"
 
-#include "molsurf/bricks/atoms_file.h"
-#include "molsurf/bricks/run_brick.h"
+#include "molsurf/scale/bricks/atoms_file.h"
+#include "molsurf/scale/bricks/run_brick.h"
 
 #include <zlib.h>
 

@@ -5,7 +5,7 @@
 
 #include "input.h"
 
-#include "molsurf/bricks/merged_bricks.h"
+#include "molsurf/scale/bricks/merged_bricks.h"
 
 #include <zlib.h>
 

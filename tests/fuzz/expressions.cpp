@@ -4,11 +4,11 @@
 
 #include "input.h"
 
-#include "molsurf/selection/choose_copies.h"
-#include "molsurf/selection/groups.h"
-#include "molsurf/selection/match_atoms.h"
-#include "molsurf/structure/assembly_operators.h"
-#include "molsurf/structure/readers.h"
+#include "molsurf/molecule/selection/choose_copies.h"
+#include "molsurf/molecule/selection/groups.h"
+#include "molsurf/molecule/selection/match_atoms.h"
+#include "molsurf/molecule/structure/assembly_operators.h"
+#include "molsurf/molecule/structure/readers.h"
 #include "molsurf/surface/frame_source.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

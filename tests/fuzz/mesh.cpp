@@ -4,9 +4,9 @@
 
 #include "input.h"
 
-#include "molsurf/io/read_mesh.h"
+#include "molsurf/analysis/measures/compare.h"
 #include "molsurf/progress.h"
-#include "molsurf/surface/compare.h"
+#include "molsurf/show/io/read_mesh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

@@ -4,7 +4,7 @@
 
 #include "input.h"
 
-#include "molsurf/structure/trajectory.h"
+#include "molsurf/molecule/structure/trajectory.h"
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 
 #include "input.h"
 
-#include "molsurf/io/describe_vdb.h"
-#include "molsurf/io/read_vdb.h"
+#include "molsurf/show/io/describe_vdb.h"
+#include "molsurf/show/io/read_vdb.h"
 #include "molsurf/surface/stored_surface.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)

@@ -3,7 +3,7 @@
 // check_mesh MESH.ply LEVELSET.vdb: prints what CGAL says of the mesh and whether its Euler number
 // is that of the level set's signs. Exit status 0 if all is well.
 
-#include "molsurf/io/read_vdb.h"
+#include "molsurf/show/io/read_vdb.h"
 #include "support/digital_euler.h"
 #include "support/mesh_checks.h"
 

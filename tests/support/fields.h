@@ -4,8 +4,8 @@
 /// @file
 /// Closed-form level sets in general position, and leaf fields filled from them.
 
-#include "molsurf/grid/leaf_table.h"
-#include "molsurf/spline/spline.h"
+#include "molsurf/kernel/grid/leaf_table.h"
+#include "molsurf/kernel/spline/spline.h"
 
 #include <openvdb/openvdb.h>
 

@@ -4,12 +4,12 @@
 /// @file
 /// The stages up to the evolved level set, as the pipeline joins them.
 
-#include "molsurf/flow/equilibrium.h"
-#include "molsurf/flow/evolve.h"
-#include "molsurf/flow/initial_surface.h"
-#include "molsurf/flow/refine.h"
-#include "molsurf/levelset/gaussian_sum.h"
-#include "molsurf/spline/spline.h"
+#include "molsurf/kernel/flow/equilibrium.h"
+#include "molsurf/kernel/flow/evolve.h"
+#include "molsurf/kernel/flow/initial_surface.h"
+#include "molsurf/kernel/flow/refine.h"
+#include "molsurf/kernel/levelset/gaussian_sum.h"
+#include "molsurf/kernel/spline/spline.h"
 
 #include <algorithm>
 #include <cmath>

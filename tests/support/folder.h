@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "molsurf/io/output_file.h"
+#include "molsurf/show/io/output_file.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
 /// @file
 /// Operators of made-up assemblies: point groups from their generators, helices.
 
-#include "molsurf/structure/assembly_operators.h"
+#include "molsurf/molecule/structure/assembly_operators.h"
 
 #include <openvdb/math/Mat3.h>
 #include <openvdb/openvdb.h>

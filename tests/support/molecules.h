@@ -4,8 +4,8 @@
 /// @file
 /// The molecules of tests/data as balls, and balls in random places.
 
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/read_structure.h"
 
 #include <optional>
 #include <random>

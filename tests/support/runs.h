@@ -5,7 +5,7 @@
 /// Whole runs, and the spline that they leave.
 
 #include "molsurf/error.h"
-#include "molsurf/spline/spline.h"
+#include "molsurf/kernel/spline/spline.h"
 #include "molsurf/surface.h"
 #include "support/molecules.h"
 

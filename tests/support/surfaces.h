@@ -4,7 +4,7 @@
 /// @file
 /// Level set grids and meshes of closed-form functions.
 
-#include "molsurf/mesh/extract.h"
+#include "molsurf/kernel/mesh/extract.h"
 #include "support/fields.h"
 
 #include <openvdb/tools/LevelSetSphere.h>

@@ -6,11 +6,11 @@
 
 #include "require.h"
 
-#include "molsurf/io/file_content.h"
-#include "molsurf/io/frame_files.h"
-#include "molsurf/picture/atom_model.h"
+#include "molsurf/analysis/measures/area_tables.h"
 #include "molsurf/settings.h"
-#include "molsurf/surface/area_tables.h"
+#include "molsurf/show/io/file_content.h"
+#include "molsurf/show/io/frame_files.h"
+#include "molsurf/show/picture/atom_model.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/file_settings.h"
 #include "molsurf/surface/picture_settings.h"

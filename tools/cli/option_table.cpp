@@ -6,11 +6,11 @@
 
 #include "molsurf/bricks.h"
 #include "molsurf/error.h"
-#include "molsurf/picture/view_file.h"
-#include "molsurf/pipeline/surface_kind.h"
-#include "molsurf/selection/groups.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/selection/groups.h"
+#include "molsurf/molecule/structure/load_text.h"
 #include "molsurf/settings.h"
-#include "molsurf/structure/load_text.h"
+#include "molsurf/show/picture/view_file.h"
 #include "molsurf/surface/set_value.h"
 
 #include <algorithm>

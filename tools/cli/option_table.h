@@ -7,7 +7,7 @@
 
 #include "cli/call.h"
 
-#include "molsurf/core/strings.h"
+#include "molsurf/kernel/core/strings.h"
 
 #include <openvdb/openvdb.h>
 

@@ -3,9 +3,9 @@
 
 #include "cli/option_table.h"
 
-#include "molsurf/color/color_table.h"
-#include "molsurf/io/output_file.h"
-#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/show/color/color_table.h"
+#include "molsurf/show/io/output_file.h"
 
 #include <algorithm>
 #include <optional>

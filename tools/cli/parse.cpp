@@ -8,10 +8,10 @@
 #include "cli/verb_table.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/report_keys.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/load_text.h"
-#include "molsurf/structure/text_fields.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/molecule/structure/text_fields.h"
+#include "molsurf/show/io/report_keys.h"
 
 #include <boost/program_options.hpp>
 

@@ -5,9 +5,9 @@
 
 #include "verbs.h"
 
-#include "molsurf/io/describe_structure.h"
-#include "molsurf/io/describe_vdb.h"
-#include "molsurf/io/read_vdb.h"
+#include "molsurf/show/io/describe_structure.h"
+#include "molsurf/show/io/describe_vdb.h"
+#include "molsurf/show/io/read_vdb.h"
 
 #include <algorithm>
 #include <iostream>

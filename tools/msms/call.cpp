@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "msms/call.h"
 
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/structure/text_fields.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/text_fields.h"
 
 #include <algorithm>
 #include <functional>

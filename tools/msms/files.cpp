@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "msms/files.h"
 
-#include "molsurf/core/printable.h"
-#include "molsurf/core/strings.h"
-#include "molsurf/io/output_buffer.h"
+#include "molsurf/kernel/core/printable.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/show/io/output_buffer.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -7,8 +7,8 @@
 #include "msms/call.h"
 #include "msms/surface.h"
 
-#include "molsurf/io/output_file.h"
-#include "molsurf/structure/structure.h"
+#include "molsurf/molecule/structure/structure.h"
+#include "molsurf/show/io/output_file.h"
 
 #include <string>
 #include <vector>

@@ -12,9 +12,9 @@
 #include "terminal.h"
 
 #include "molsurf/error.h"
-#include "molsurf/pipeline/check_balls.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/kernel/pipeline/check_balls.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/read_structure.h"
 
 #include <openvdb/openvdb.h>
 
@@ -24,7 +24,7 @@
 using namespace molsurf;
 using namespace molsurf::msms;
 using tool::printed;
-using tool::say;
+using tool::printLine;
 
 namespace
 {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "msms/surface.h"
 
-#include "molsurf/balls/ball_boundary.h"
-#include "molsurf/balls/boundary_measure.h"
-#include "molsurf/balls/boundary_point.h"
-#include "molsurf/balls/excluded_measure.h"
-#include "molsurf/balls/nearest_ball.h"
-#include "molsurf/core/disjoint_sets.h"
-#include "molsurf/core/parallel.h"
-#include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/simplify.h"
-#include "molsurf/mesh/topology.h"
-#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/kernel/balls/ball_boundary.h"
+#include "molsurf/kernel/balls/boundary_measure.h"
+#include "molsurf/kernel/balls/boundary_point.h"
+#include "molsurf/kernel/balls/excluded_measure.h"
+#include "molsurf/kernel/balls/nearest_ball.h"
+#include "molsurf/kernel/core/disjoint_sets.h"
+#include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/mesh/measure.h"
+#include "molsurf/kernel/mesh/simplify.h"
+#include "molsurf/kernel/mesh/topology.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/surface.h"
 
 #include <algorithm>

@@ -9,14 +9,14 @@
 #include "stand_in.h"
 #include "terminal.h"
 
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/io/output_buffer.h"
-#include "molsurf/io/write_mesh.h"
-#include "molsurf/mesh/measure.h"
-#include "molsurf/pipeline/check_balls.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/mesh/measure.h"
+#include "molsurf/kernel/pipeline/check_balls.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/read_structure.h"
+#include "molsurf/show/io/output_buffer.h"
+#include "molsurf/show/io/write_mesh.h"
 #include "molsurf/surface.h"
 
 #include <openvdb/openvdb.h>
@@ -26,7 +26,7 @@
 using namespace molsurf;
 using namespace molsurf::nanoshaper;
 using tool::printed;
-using tool::say;
+using tool::printLine;
 
 namespace
 {

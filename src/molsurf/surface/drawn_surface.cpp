@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/drawn_surface.h"
 
-#include "molsurf/color/palette.h"
-#include "molsurf/core/memory.h"
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/picture/draw_legend.h"
-#include "molsurf/picture/panels.h"
-#include "molsurf/picture/view.h"
-#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/kernel/core/memory.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/show/color/palette.h"
+#include "molsurf/show/picture/draw_legend.h"
+#include "molsurf/show/picture/panels.h"
+#include "molsurf/show/picture/view.h"
 
 #include <algorithm>
 #include <map>

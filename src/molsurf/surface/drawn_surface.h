@@ -5,13 +5,13 @@
 /// A surface as pictures and pages show it: with its copies, its colours and what explains them.
 
 #include "molsurf/atoms.h"
-#include "molsurf/color/crisp_borders.h"
-#include "molsurf/color/legend.h"
+#include "molsurf/molecule/selection/subset.h"
 #include "molsurf/options.h"
-#include "molsurf/picture/atom_model.h"
-#include "molsurf/picture/draw_mesh.h"
-#include "molsurf/picture/write_html.h"
-#include "molsurf/selection/subset.h"
+#include "molsurf/show/color/crisp_borders.h"
+#include "molsurf/show/color/legend.h"
+#include "molsurf/show/picture/atom_model.h"
+#include "molsurf/show/picture/draw_mesh.h"
+#include "molsurf/show/picture/write_html.h"
 #include "molsurf/surface/picture_settings.h"
 
 #include <memory>

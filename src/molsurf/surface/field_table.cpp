@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/field_table.h"
 
-#include "molsurf/color/color_table.h"
-#include "molsurf/color/palette.h"
-#include "molsurf/grid/grid_like.h"
-#include "molsurf/pipeline/surface_kind.h"
-#include "molsurf/pipeline/surface_run.h"
-#include "molsurf/spline/curvature.h"
+#include "molsurf/kernel/grid/grid_like.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/kernel/pipeline/surface_run.h"
+#include "molsurf/kernel/spline/curvature.h"
+#include "molsurf/show/color/color_table.h"
+#include "molsurf/show/color/palette.h"
 #include "molsurf/surface/product_table.h"
 
 #include <algorithm>

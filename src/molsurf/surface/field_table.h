@@ -4,9 +4,9 @@
 /// @file
 /// The grids beside `surface`, a row each: words, estimates, refusals and the grids come from it.
 
-#include "molsurf/color/label.h"
-#include "molsurf/color/value_colors.h"
-#include "molsurf/pipeline/derived_grids.h"
+#include "molsurf/kernel/pipeline/derived_grids.h"
+#include "molsurf/show/color/label.h"
+#include "molsurf/show/color/value_colors.h"
 #include "molsurf/surface.h"
 
 #include <array>

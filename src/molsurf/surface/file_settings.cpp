@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/file_settings.h"
 
-#include "molsurf/io/file_content.h"
-#include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/specks.h"
+#include "molsurf/kernel/mesh/measure.h"
+#include "molsurf/kernel/mesh/specks.h"
+#include "molsurf/show/io/file_content.h"
 
 namespace molsurf
 {

@@ -4,11 +4,11 @@
 /// @file
 /// The options of files but pictures, a row each: the command line and Python's save() take them.
 
-#include "molsurf/io/scene.h"
-#include "molsurf/io/write_apbs.h"
-#include "molsurf/io/write_mesh.h"
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
+#include "molsurf/show/io/scene.h"
+#include "molsurf/show/io/write_apbs.h"
+#include "molsurf/show/io/write_mesh.h"
 #include "molsurf/surface/setting_row.h"
 
 #include <string>

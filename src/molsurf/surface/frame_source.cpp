@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/frame_source.h"
 
-#include "molsurf/color/palette.h"
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/selection/match_atoms.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/selection/match_atoms.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/read_structure.h"
+#include "molsurf/show/color/palette.h"
 
 #include <algorithm>
 #include <charconv>

@@ -5,10 +5,10 @@
 /// The atoms of frames: models of a structure, or a trajectory beside it.
 
 #include "molsurf/atoms.h"
+#include "molsurf/molecule/selection/superpose.h"
+#include "molsurf/molecule/structure/structure.h"
+#include "molsurf/molecule/structure/trajectory.h"
 #include "molsurf/progress.h"
-#include "molsurf/selection/superpose.h"
-#include "molsurf/structure/structure.h"
-#include "molsurf/structure/trajectory.h"
 
 #include <map>
 #include <memory>

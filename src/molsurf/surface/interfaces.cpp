@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/interfaces.h"
 
-#include "molsurf/balls/contacts.h"
-#include "molsurf/core/quiet_progress.h"
-#include "molsurf/pipeline/closed_form.h"
-#include "molsurf/pipeline/influence.h"
-#include "molsurf/pipeline/surface_kind.h"
-#include "molsurf/selection/subset.h"
+#include "molsurf/analysis/measures/shape_complementarity.h"
+#include "molsurf/kernel/balls/contacts.h"
+#include "molsurf/kernel/core/quiet_progress.h"
+#include "molsurf/kernel/pipeline/closed_form.h"
+#include "molsurf/kernel/pipeline/influence.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/selection/subset.h"
 #include "molsurf/surface/run.h"
-#include "molsurf/surface/shape_complementarity.h"
 #include "molsurf/surface/whole_run.h"
 
 #include <algorithm>

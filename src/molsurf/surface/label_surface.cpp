@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/label_surface.h"
 
-#include "molsurf/balls/nearest_ball.h"
-#include "molsurf/color/curvature_colors.h"
-#include "molsurf/color/label.h"
-#include "molsurf/color/palette.h"
-#include "molsurf/color/value_colors.h"
-#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/kernel/balls/nearest_ball.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/show/color/curvature_colors.h"
+#include "molsurf/show/color/label.h"
+#include "molsurf/show/color/palette.h"
+#include "molsurf/show/color/value_colors.h"
 #include "molsurf/surface/field_table.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/match_volume.h"
 
-#include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
-#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/kernel/core/quiet_progress.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/whole_run.h"
 

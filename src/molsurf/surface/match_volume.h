@@ -4,9 +4,9 @@
 /// @file
 /// Coarse resolutions that keep the volume of the fine surface.
 
+#include "molsurf/molecule/selection/select_balls.h"
 #include "molsurf/options.h"
 #include "molsurf/progress.h"
-#include "molsurf/selection/select_balls.h"
 
 namespace molsurf
 {

@@ -2,7 +2,7 @@
 #include "molsurf/options.h"
 
 #include "molsurf/error.h"
-#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/product_table.h"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/parts.h"
 
-#include "molsurf/color/curvature_colors.h"
-#include "molsurf/color/palette.h"
-#include "molsurf/core/quiet_progress.h"
 #include "molsurf/error.h"
-#include "molsurf/mesh/mesh_shape.h"
-#include "molsurf/mesh/statistics.h"
-#include "molsurf/pipeline/check_balls.h"
-#include "molsurf/pipeline/surface_kind.h"
-#include "molsurf/selection/subset.h"
+#include "molsurf/kernel/core/quiet_progress.h"
+#include "molsurf/kernel/mesh/mesh_shape.h"
+#include "molsurf/kernel/mesh/statistics.h"
+#include "molsurf/kernel/pipeline/check_balls.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/selection/subset.h"
+#include "molsurf/show/color/curvature_colors.h"
+#include "molsurf/show/color/palette.h"
 #include "molsurf/surface/whole_run.h"
 
 #include <algorithm>

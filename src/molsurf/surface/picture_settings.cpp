@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/picture_settings.h"
 
-#include "molsurf/color/palette.h"
-#include "molsurf/color/value_colors.h"
-#include "molsurf/io/file_content.h"
-#include "molsurf/picture/style.h"
-#include "molsurf/picture/view_file.h"
-#include "molsurf/pipeline/surface_kind.h"
-#include "molsurf/structure/text_fields.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/structure/text_fields.h"
+#include "molsurf/show/color/palette.h"
+#include "molsurf/show/color/value_colors.h"
+#include "molsurf/show/io/file_content.h"
+#include "molsurf/show/picture/style.h"
+#include "molsurf/show/picture/view_file.h"
 #include "molsurf/surface/set_value.h"
 
 #include <charconv>

@@ -5,9 +5,9 @@
 /// The options of pictures, a row each: the command line and Python's picture() take them.
 
 #include "molsurf/atoms.h"
-#include "molsurf/color/crisp_borders.h"
 #include "molsurf/options.h"
-#include "molsurf/picture/draw_mesh.h"
+#include "molsurf/show/color/crisp_borders.h"
+#include "molsurf/show/picture/draw_mesh.h"
 #include "molsurf/surface/setting_row.h"
 
 #include <functional>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/pocket_meshes.h"
 
-#include "molsurf/core/cancel.h"
-#include "molsurf/grid/grid_like.h"
-#include "molsurf/mesh/volume_mesher.h"
-#include "molsurf/proximity/deviation.h"
+#include "molsurf/analysis/proximity/deviation.h"
+#include "molsurf/kernel/core/cancel.h"
+#include "molsurf/kernel/grid/grid_like.h"
+#include "molsurf/kernel/mesh/volume_mesher.h"
 #include "molsurf/surface/pockets.h"
 
 #include <cmath>

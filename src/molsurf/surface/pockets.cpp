@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/pockets.h"
 
-#include "molsurf/color/palette.h"
-#include "molsurf/core/parallel.h"
-#include "molsurf/core/strings.h"
-#include "molsurf/pipeline/surface_run.h"
-#include "molsurf/pockets/find_pockets.h"
+#include "molsurf/analysis/pockets/find_pockets.h"
+#include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/pipeline/surface_run.h"
+#include "molsurf/show/color/palette.h"
 #include "molsurf/surface/field_table.h"
 
 #include <algorithm>

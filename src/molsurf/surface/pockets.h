@@ -4,7 +4,7 @@
 /// @file
 /// The pockets of a molecule as a product of a run.
 
-#include "molsurf/color/color_map.h"
+#include "molsurf/show/color/color_map.h"
 #include "molsurf/surface.h"
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/pore.h"
 
-#include "molsurf/color/pore_color.h"
-#include "molsurf/core/orthonormal_basis.h"
-#include "molsurf/pipeline/surface_run.h"
-#include "molsurf/pockets/find_pore.h"
+#include "molsurf/analysis/pockets/find_pore.h"
+#include "molsurf/kernel/core/orthonormal_basis.h"
+#include "molsurf/kernel/pipeline/surface_run.h"
+#include "molsurf/show/color/pore_color.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/run.h"
 
-#include "molsurf/color/palette.h"
 #include "molsurf/error.h"
-#include "molsurf/pipeline/check_balls.h"
-#include "molsurf/selection/subset.h"
+#include "molsurf/kernel/pipeline/check_balls.h"
+#include "molsurf/molecule/selection/subset.h"
+#include "molsurf/show/color/palette.h"
 #include "molsurf/surface/match_volume.h"
 #include "molsurf/surface/parts.h"
 #include "molsurf/surface/product_table.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/set_value.h"
 
-#include "molsurf/color/color_table.h"
-#include "molsurf/selection/groups.h"
+#include "molsurf/molecule/selection/groups.h"
+#include "molsurf/show/color/color_table.h"
 
 namespace molsurf
 {

@@ -5,8 +5,8 @@
 /// Setters of values from words that a person typed: functions of a target and its values, for
 /// tables of options. `of` gives the variable of a target that is set.
 
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
+#include "molsurf/kernel/core/strings.h"
 #include "molsurf/options.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 /// @file
 /// A row of the tables of options of pictures and files.
 
-#include "molsurf/core/strings.h"
+#include "molsurf/kernel/core/strings.h"
 #include "molsurf/surface/set_value.h"
 
 #include <functional>

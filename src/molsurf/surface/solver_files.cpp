@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/solver_files.h"
 
-#include "molsurf/core/printable.h"
-#include "molsurf/core/strings.h"
+#include "molsurf/analysis/measures/compare.h"
 #include "molsurf/error.h"
-#include "molsurf/selection/point_charges.h"
-#include "molsurf/structure/archive.h"
-#include "molsurf/surface/compare.h"
+#include "molsurf/kernel/core/printable.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/selection/point_charges.h"
+#include "molsurf/molecule/structure/archive.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -5,8 +5,8 @@
 /// The files of a calculation of APBS with a surface, a row each.
 
 #include "molsurf/atoms.h"
-#include "molsurf/io/output_file.h"
-#include "molsurf/io/write_apbs.h"
+#include "molsurf/show/io/output_file.h"
+#include "molsurf/show/io/write_apbs.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/file_settings.h"
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/stored_surface.h"
 
-#include "molsurf/color/color_map.h"
-#include "molsurf/color/color_table.h"
-#include "molsurf/color/curvature_colors.h"
-#include "molsurf/color/palette.h"
+#include "molsurf/analysis/measures/compare.h"
 #include "molsurf/error.h"
-#include "molsurf/grid/grid_like.h"
-#include "molsurf/pipeline/derived_grids.h"
-#include "molsurf/pipeline/surface_run.h"
-#include "molsurf/selection/groups.h"
-#include "molsurf/surface/compare.h"
+#include "molsurf/kernel/grid/grid_like.h"
+#include "molsurf/kernel/pipeline/derived_grids.h"
+#include "molsurf/kernel/pipeline/surface_run.h"
+#include "molsurf/molecule/selection/groups.h"
+#include "molsurf/show/color/color_map.h"
+#include "molsurf/show/color/color_table.h"
+#include "molsurf/show/color/curvature_colors.h"
+#include "molsurf/show/color/palette.h"
 #include "molsurf/surface/field_table.h"
 
 #include <openvdb/tools/ChangeBackground.h>

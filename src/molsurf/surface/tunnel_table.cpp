@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "molsurf/analysis/measures/lining.h"
 #include "molsurf/report.h"
-#include "molsurf/surface/lining.h"
 #include "molsurf/surface/tunnels.h"
 
 #include <algorithm>

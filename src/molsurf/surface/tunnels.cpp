@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/tunnels.h"
 
-#include "molsurf/color/pore_color.h"
-#include "molsurf/core/strings.h"
-#include "molsurf/pipeline/surface_run.h"
-#include "molsurf/pockets/find_tunnels.h"
-#include "molsurf/surface/lining.h"
+#include "molsurf/analysis/measures/lining.h"
+#include "molsurf/analysis/pockets/find_tunnels.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/pipeline/surface_run.h"
+#include "molsurf/show/color/pore_color.h"
 #include "molsurf/surface/pore.h"
 
 #include <cmath>

@@ -4,10 +4,10 @@
 /// @file
 /// The tunnels of a molecule as a product of a run.
 
-#include "molsurf/io/output_file.h"
+#include "molsurf/analysis/measures/lining.h"
 #include "molsurf/mesh.h"
+#include "molsurf/show/io/output_file.h"
 #include "molsurf/surface.h"
-#include "molsurf/surface/lining.h"
 
 #include <openvdb/Types.h>
 

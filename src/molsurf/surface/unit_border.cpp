@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/unit_border.h"
 
-#include "molsurf/balls/ball_index.h"
+#include "molsurf/kernel/balls/ball_index.h"
 
 #include <algorithm>
 #include <map>

@@ -5,7 +5,7 @@
 /// The border of a symmetric unit, made to fit those of its neighbours vertex on vertex.
 
 #include "molsurf/atoms.h"
-#include "molsurf/core/disjoint_sets.h"
+#include "molsurf/kernel/core/disjoint_sets.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/unit_cut.h"
 

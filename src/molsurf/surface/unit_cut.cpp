@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/unit_cut.h"
 
-#include "molsurf/core/bracketed_root.h"
-#include "molsurf/core/parallel.h"
-#include "molsurf/spline/curvature.h"
+#include "molsurf/kernel/core/bracketed_root.h"
+#include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/spline/curvature.h"
 
 #include <openvdb/math/Mat3.h>
 

@@ -4,10 +4,10 @@
 /// @file
 /// The part of a surface that a unit owns, cut out along the exact border with its neighbours.
 
-#include "molsurf/balls/power_owners.h"
+#include "molsurf/kernel/balls/power_owners.h"
+#include "molsurf/kernel/spline/spline.h"
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
-#include "molsurf/spline/spline.h"
 
 #include <cstdint>
 #include <limits>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/unit_mesh.h"
 
-#include "molsurf/core/cancel.h"
-#include "molsurf/core/parallel.h"
 #include "molsurf/error.h"
-#include "molsurf/io/part_ranges.h"
-#include "molsurf/mesh/topology.h"
+#include "molsurf/kernel/core/cancel.h"
+#include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/mesh/topology.h"
+#include "molsurf/show/io/part_ranges.h"
 #include "molsurf/surface/unit_border.h"
 
 namespace molsurf

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/unit_union.h"
 
-#include "molsurf/balls/boundary_check.h"
-#include "molsurf/balls/boundary_measure.h"
+#include "molsurf/kernel/balls/boundary_check.h"
+#include "molsurf/kernel/balls/boundary_measure.h"
 
 #include <algorithm>
 #include <cmath>

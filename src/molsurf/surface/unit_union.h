@@ -5,7 +5,7 @@
 /// Shares of a symmetric unit in a union of balls, in closed form.
 
 #include "molsurf/atoms.h"
-#include "molsurf/balls/ball_index.h"
+#include "molsurf/kernel/balls/ball_index.h"
 #include "molsurf/progress.h"
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/velocity.h"
 
-#include "molsurf/balls/nearest_ball.h"
-#include "molsurf/color/label.h"
-#include "molsurf/grid/grid_like.h"
-#include "molsurf/pipeline/influence.h"
+#include "molsurf/kernel/balls/nearest_ball.h"
+#include "molsurf/kernel/grid/grid_like.h"
+#include "molsurf/kernel/pipeline/influence.h"
+#include "molsurf/show/color/label.h"
 #include "molsurf/surface/field_table.h"
 
 #include <openvdb/tools/Morphology.h>

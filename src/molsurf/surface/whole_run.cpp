@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/whole_run.h"
 
-#include "molsurf/balls/placed_ball.h"
-#include "molsurf/color/curvature_colors.h"
-#include "molsurf/pipeline/closed_form.h"
-#include "molsurf/pipeline/pose_error.h"
-#include "molsurf/pipeline/surface_kind.h"
-#include "molsurf/pipeline/surface_run.h"
-#include "molsurf/selection/subset.h"
+#include "molsurf/kernel/balls/placed_ball.h"
+#include "molsurf/kernel/pipeline/closed_form.h"
+#include "molsurf/kernel/pipeline/pose_error.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/kernel/pipeline/surface_run.h"
+#include "molsurf/molecule/selection/subset.h"
+#include "molsurf/show/color/curvature_colors.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/label_surface.h"
 

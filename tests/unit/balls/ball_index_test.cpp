@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/ball_index.h"
+#include "molsurf/kernel/balls/ball_index.h"
 
 #include "support/molecules.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/bead_radii.h"
+#include "molsurf/kernel/balls/bead_radii.h"
 
-#include "molsurf/balls/power_cells.h"
 #include "molsurf/error.h"
-#include "molsurf/selection/coarse_grain.h"
-#include "molsurf/selection/select_balls.h"
+#include "molsurf/kernel/balls/power_cells.h"
+#include "molsurf/molecule/selection/coarse_grain.h"
+#include "molsurf/molecule/selection/select_balls.h"
 #include "support/molecules.h"
 #include "support/runs.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/boundary_check.h"
 #include "molsurf/error.h"
+#include "molsurf/kernel/balls/boundary_check.h"
 #include "support/molecules.h"
 
 #include <gtest/gtest.h>

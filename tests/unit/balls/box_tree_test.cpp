@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/box_tree.h"
+#include "molsurf/kernel/balls/box_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/depth.h"
+#include "molsurf/kernel/balls/depth.h"
 
 #include "support/molecules.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/excluded_measure.h"
+#include "molsurf/kernel/balls/excluded_measure.h"
 
 #include "molsurf/error.h"
 #include "support/molecules.h"

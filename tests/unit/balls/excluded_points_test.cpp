@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/excluded_points.h"
+#include "molsurf/kernel/balls/excluded_points.h"
 
-#include "molsurf/balls/boundary_point.h"
-#include "molsurf/balls/excluded_measure.h"
+#include "molsurf/kernel/balls/boundary_point.h"
+#include "molsurf/kernel/balls/excluded_measure.h"
 #include "support/molecules.h"
 
 #include <gtest/gtest.h>

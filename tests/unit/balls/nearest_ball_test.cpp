@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/nearest_ball.h"
+#include "molsurf/kernel/balls/nearest_ball.h"
 
 #include "support/molecules.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/power_cells.h"
+#include "molsurf/kernel/balls/power_cells.h"
 
-#include "molsurf/balls/boundary_measure.h"
+#include "molsurf/kernel/balls/boundary_measure.h"
 #include "support/molecules.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/power_owners.h"
+#include "molsurf/kernel/balls/power_owners.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/boundary_measure.h"
+#include "molsurf/kernel/balls/boundary_measure.h"
 #include "support/molecules.h"
 
 #include <gtest/gtest.h>

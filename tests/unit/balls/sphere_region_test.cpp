@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/sphere_region.h"
+#include "molsurf/kernel/balls/sphere_region.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/color/color_map.h"
+#include "molsurf/show/color/color_map.h"
 
 #include <gtest/gtest.h>
 

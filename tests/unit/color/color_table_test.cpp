@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/color/color_table.h"
+#include "molsurf/show/color/color_table.h"
 
-#include "molsurf/color/palette.h"
 #include "molsurf/error.h"
+#include "molsurf/show/color/palette.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/color/curvature_colors.h"
+#include "molsurf/show/color/curvature_colors.h"
 
 #include <gtest/gtest.h>
 

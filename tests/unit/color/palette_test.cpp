@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/color/palette.h"
+#include "molsurf/show/color/palette.h"
 
 #include <gtest/gtest.h>
 

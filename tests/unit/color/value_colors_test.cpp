@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/color/value_colors.h"
+#include "molsurf/show/color/value_colors.h"
 
-#include "molsurf/color/palette.h"
-#include "molsurf/pipeline/surface_kind.h"
-#include "molsurf/selection/scalar_map.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/selection/scalar_map.h"
+#include "molsurf/show/color/palette.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/content_digest.h"
+#include "molsurf/kernel/core/content_digest.h"
 
 #include <gtest/gtest.h>
 

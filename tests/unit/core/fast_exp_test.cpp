@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/simd.h"
+#include "molsurf/kernel/core/simd.h"
 
 #include <gtest/gtest.h>
 

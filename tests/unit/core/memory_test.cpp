@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/memory.h"
+#include "molsurf/kernel/core/memory.h"
 
-#include "molsurf/core/transient_error.h"
 #include "molsurf/error.h"
+#include "molsurf/kernel/core/transient_error.h"
 
 #include <gtest/gtest.h>
 

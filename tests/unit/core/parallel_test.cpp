@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/parallel.h"
+#include "molsurf/kernel/core/parallel.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

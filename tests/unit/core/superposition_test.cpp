@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/superposition.h"
+#include "molsurf/kernel/core/superposition.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/flow/displacement.h"
+#include "molsurf/kernel/flow/displacement.h"
 
 #include <gtest/gtest.h>
 

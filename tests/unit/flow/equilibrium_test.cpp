@@ -4,7 +4,7 @@
 #include "support/flow.h"
 #include "support/molecules.h"
 
-#include "molsurf/flow/interface_energy.h"
+#include "molsurf/kernel/flow/interface_energy.h"
 
 #include <gtest/gtest.h>
 

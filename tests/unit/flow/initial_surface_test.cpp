@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/flow/initial_surface.h"
+#include "molsurf/kernel/flow/initial_surface.h"
 
 #include "support/convergence.h"
 #include "support/exact_minimum.h"

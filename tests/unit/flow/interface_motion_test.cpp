@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/flow/interface_motion.h"
+#include "molsurf/kernel/flow/interface_motion.h"
 
 #include "support/fields.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/flow/metric.h"
+#include "molsurf/kernel/flow/metric.h"
 
 #include <openvdb/openvdb.h>
 

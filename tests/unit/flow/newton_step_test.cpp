@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/flow/newton_step.h"
+#include "molsurf/kernel/flow/newton_step.h"
 
-#include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/kernel/levelset/gaussian_sum.h"
 
 #include <gtest/gtest.h>
 

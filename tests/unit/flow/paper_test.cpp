@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/flow/paper_step.h"
+#include "molsurf/kernel/flow/paper_step.h"
 #include "support/convergence.h"
 #include "support/exact_minimum.h"
 #include "support/fields.h"

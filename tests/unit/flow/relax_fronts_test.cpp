@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/flow/relax_fronts.h"
+#include "molsurf/kernel/flow/relax_fronts.h"
 
 #include "support/flow.h"
 #include "support/molecules.h"

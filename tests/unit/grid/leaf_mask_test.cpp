@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/grid/leaf_mask.h"
+#include "molsurf/kernel/grid/leaf_mask.h"
 
 #include <gtest/gtest.h>
 

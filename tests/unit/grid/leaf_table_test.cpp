@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/grid/leaf_table.h"
+#include "molsurf/kernel/grid/leaf_table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/grid/leaf_table.h"
-#include "molsurf/grid/paged_array.h"
+#include "molsurf/kernel/grid/leaf_table.h"
+#include "molsurf/kernel/grid/paged_array.h"
 
 #include <gtest/gtest.h>
 

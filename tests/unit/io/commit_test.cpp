@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/commit.h"
+#include "molsurf/show/io/commit.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/temporary_file.h"
+#include "molsurf/show/io/temporary_file.h"
 #include "support/folder.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/frame_files.h"
+#include "molsurf/show/io/frame_files.h"
 
-#include "molsurf/io/usda_text.h"
+#include "molsurf/show/io/usda_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/output_file.h"
+#include "molsurf/show/io/output_file.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/temporary_file.h"
+#include "molsurf/show/io/temporary_file.h"
 #include "support/folder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/output_folders.h"
+#include "molsurf/show/io/output_folders.h"
 
 #include "molsurf/error.h"
 #include "support/folder.h"

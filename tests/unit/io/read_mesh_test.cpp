@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/read_mesh.h"
+#include "molsurf/show/io/read_mesh.h"
 
 #include "support/folder.h"
 
+#include "molsurf/analysis/proximity/deviation.h"
 #include "molsurf/error.h"
-#include "molsurf/io/write_mesh.h"
-#include "molsurf/proximity/deviation.h"
+#include "molsurf/show/io/write_mesh.h"
 #include "support/solids.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/scene.h"
+#include "molsurf/show/io/scene.h"
 
 #include "support/surfaces.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/write_comparison.h"
+#include "molsurf/show/io/write_comparison.h"
 
 #include "unit/io/json_keys.h"
 

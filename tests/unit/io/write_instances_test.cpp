@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/rotation_quaternion.h"
-#include "molsurf/io/write_glb.h"
-#include "molsurf/io/write_usda_instances.h"
+#include "molsurf/show/io/rotation_quaternion.h"
+#include "molsurf/show/io/write_glb.h"
+#include "molsurf/show/io/write_usda_instances.h"
 
 #include "support/folder.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/write_mesh.h"
+#include "molsurf/show/io/write_mesh.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/ply_layout.h"
+#include "molsurf/show/io/ply_layout.h"
 
 #include "support/folder.h"
 

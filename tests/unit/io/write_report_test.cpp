@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/write_report.h"
+#include "molsurf/show/io/write_report.h"
 
-#include "molsurf/io/report_keys.h"
+#include "molsurf/show/io/report_keys.h"
 
 #include "unit/io/json_keys.h"
 

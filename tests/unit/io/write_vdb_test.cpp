@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/io/write_vdb.h"
+#include "molsurf/show/io/write_vdb.h"
 
 #include "molsurf/error.h"
-#include "molsurf/io/read_vdb.h"
+#include "molsurf/show/io/read_vdb.h"
 #include "support/folder.h"
 #include "support/surfaces.h"
 

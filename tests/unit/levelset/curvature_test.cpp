@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/curvature.h"
+#include "molsurf/kernel/levelset/curvature.h"
 
 #include "support/convergence.h"
 #include "support/fields.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/jets.h"
+#include "molsurf/kernel/levelset/jets.h"
 
-#include "molsurf/spline/spline.h"
+#include "molsurf/kernel/spline/spline.h"
 
 #include <gtest/gtest.h>
 

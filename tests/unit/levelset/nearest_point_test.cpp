@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/nearest_point.h"
+#include "molsurf/kernel/levelset/nearest_point.h"
 
 #include "support/fields.h"
 

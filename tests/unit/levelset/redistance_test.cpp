@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/redistance.h"
+#include "molsurf/kernel/levelset/redistance.h"
 
 #include "support/convergence.h"
 #include "support/fields.h"

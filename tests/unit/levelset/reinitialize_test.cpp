@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/reinitialize.h"
+#include "molsurf/kernel/levelset/reinitialize.h"
 
 #include "support/convergence.h"
 #include "support/fields.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/round_ridges.h"
+#include "molsurf/kernel/levelset/round_ridges.h"
 
-#include "molsurf/grid/leaf_block.h"
-#include "molsurf/levelset/stencil.h"
+#include "molsurf/kernel/grid/leaf_block.h"
+#include "molsurf/kernel/levelset/stencil.h"
 #include "support/fields.h"
 
 #include <gtest/gtest.h>

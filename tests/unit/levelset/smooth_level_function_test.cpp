@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/smooth_level_function.h"
+#include "molsurf/kernel/levelset/smooth_level_function.h"
 
-#include "molsurf/flow/initial_surface.h"
-#include "molsurf/levelset/gaussian_sum.h"
+#include "molsurf/kernel/flow/initial_surface.h"
+#include "molsurf/kernel/levelset/gaussian_sum.h"
 #include "support/fields.h"
 #include "support/molecules.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/levelset/thicken.h"
+#include "molsurf/kernel/levelset/thicken.h"
 
 #include "support/fields.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/balls/boundary_measure.h"
-#include "molsurf/levelset/union_distance.h"
+#include "molsurf/kernel/balls/boundary_measure.h"
+#include "molsurf/kernel/levelset/union_distance.h"
 #include "support/molecules.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/check_arrays.h"
+#include "molsurf/kernel/mesh/check_arrays.h"
 
 #include "molsurf/error.h"
 #include "support/solids.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/extract.h"
+#include "molsurf/kernel/mesh/extract.h"
 
-#include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/surface_vertices.h"
-#include "molsurf/mesh/topology.h"
-#include "molsurf/spline/curvature.h"
+#include "molsurf/kernel/mesh/measure.h"
+#include "molsurf/kernel/mesh/surface_vertices.h"
+#include "molsurf/kernel/mesh/topology.h"
+#include "molsurf/kernel/spline/curvature.h"
 #include "support/convergence.h"
 #include "support/digital_euler.h"
 #include "support/surfaces.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/half_edges.h"
+#include "molsurf/kernel/mesh/half_edges.h"
 
-#include "molsurf/mesh/topology.h"
+#include "molsurf/kernel/mesh/topology.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>

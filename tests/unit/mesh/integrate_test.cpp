@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/integrate.h"
+#include "molsurf/kernel/mesh/integrate.h"
 
-#include "molsurf/mesh/statistics.h"
+#include "molsurf/kernel/mesh/statistics.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>

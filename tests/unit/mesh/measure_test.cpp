@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/measure.h"
+#include "molsurf/kernel/mesh/measure.h"
 
 #include "support/convergence.h"
 #include "support/surfaces.h"

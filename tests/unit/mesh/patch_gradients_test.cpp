@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/patch_gradients.h"
+#include "molsurf/kernel/mesh/patch_gradients.h"
 
 #include "molsurf/error.h"
-#include "molsurf/mesh/measure.h"
+#include "molsurf/kernel/mesh/measure.h"
 
 #include "support/surfaces.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/remesh.h"
+#include "molsurf/kernel/mesh/remesh.h"
 
-#include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/mesh_shape.h"
-#include "molsurf/mesh/size_field.h"
+#include "molsurf/kernel/mesh/measure.h"
+#include "molsurf/kernel/mesh/mesh_shape.h"
+#include "molsurf/kernel/mesh/size_field.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/simplify.h"
-#include "molsurf/mesh/topology.h"
+#include "molsurf/kernel/mesh/simplify.h"
+#include "molsurf/kernel/mesh/topology.h"
 #include "support/solids.h"
 
 #include <gtest/gtest.h>

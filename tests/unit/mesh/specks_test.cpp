@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 
-#include "molsurf/mesh/specks.h"
+#include "molsurf/kernel/mesh/specks.h"
 
-#include "molsurf/mesh/topology.h"
+#include "molsurf/kernel/mesh/topology.h"
 #include <openvdb/tools/LevelSetSphere.h>
 #include <openvdb/tools/VolumeToMesh.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/statistics.h"
+#include "molsurf/kernel/mesh/statistics.h"
 
 #include "support/surfaces.h"
 

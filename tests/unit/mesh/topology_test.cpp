@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/mesh/topology.h"
+#include "molsurf/kernel/mesh/topology.h"
 
-#include "molsurf/mesh/vertex_slices.h"
+#include "molsurf/kernel/mesh/vertex_slices.h"
 
 #include <gtest/gtest.h>
 

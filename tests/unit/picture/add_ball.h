@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "molsurf/color/color_map.h"
 #include "molsurf/mesh.h"
+#include "molsurf/show/color/color_map.h"
 
 #include <cmath>
 

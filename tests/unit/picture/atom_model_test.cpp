@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/atom_model.h"
+#include "molsurf/show/picture/atom_model.h"
 
 #include "molsurf/error.h"
-#include "molsurf/picture/draw_mesh.h"
-#include "molsurf/picture/style.h"
-#include "molsurf/structure/residue_bonds.h"
+#include "molsurf/molecule/structure/residue_bonds.h"
+#include "molsurf/show/picture/draw_mesh.h"
+#include "molsurf/show/picture/style.h"
 
 #include <gtest/gtest.h>
 

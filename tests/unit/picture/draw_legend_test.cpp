@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/draw_legend.h"
+#include "molsurf/show/picture/draw_legend.h"
 
-#include "molsurf/picture/font.h"
+#include "molsurf/show/picture/font.h"
 
 #include <gtest/gtest.h>
 

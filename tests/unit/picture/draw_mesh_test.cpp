@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/draw_mesh.h"
+#include "molsurf/show/picture/draw_mesh.h"
 
-#include "molsurf/color/crisp_borders.h"
-#include "molsurf/picture/style.h"
+#include "molsurf/show/color/crisp_borders.h"
+#include "molsurf/show/picture/style.h"
 #include "unit/picture/add_ball.h"
 
 #include <tbb/global_control.h>

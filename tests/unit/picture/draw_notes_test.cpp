@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/draw_notes.h"
+#include "molsurf/show/picture/draw_notes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/outline.h"
+#include "molsurf/show/picture/outline.h"
 
 #include <gtest/gtest.h>
 

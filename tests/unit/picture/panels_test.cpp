@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/panels.h"
+#include "molsurf/show/picture/panels.h"
 
 #include <gtest/gtest.h>
 

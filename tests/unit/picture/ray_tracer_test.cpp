@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/ray_tracer.h"
+#include "molsurf/show/picture/ray_tracer.h"
 
 #include "unit/picture/add_ball.h"
 

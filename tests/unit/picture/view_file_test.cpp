@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/view_file.h"
+#include "molsurf/show/picture/view_file.h"
 
 #include "molsurf/error.h"
 #include "support/folder.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/view.h"
+#include "molsurf/show/picture/view.h"
 
-#include "molsurf/picture/view_file.h"
+#include "molsurf/show/picture/view_file.h"
 #include "unit/picture/add_ball.h"
 
 #include <gtest/gtest.h>

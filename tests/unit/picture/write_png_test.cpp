@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/picture/write_png.h"
+#include "molsurf/show/picture/write_png.h"
 
 #include "support/folder.h"
 

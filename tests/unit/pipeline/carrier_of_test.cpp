@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/pipeline/carrier_of.h"
+#include "molsurf/kernel/pipeline/carrier_of.h"
 
-#include "molsurf/flow/initial_surface.h"
-#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/kernel/flow/initial_surface.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
 #include "support/fields.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/bricks/plan_bricks.h"
 #include "molsurf/error.h"
-#include "molsurf/pipeline/check_balls.h"
+#include "molsurf/kernel/pipeline/check_balls.h"
+#include "molsurf/scale/bricks/plan_bricks.h"
 #include "molsurf/surface.h"
 #include "support/molecules.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 
-#include "molsurf/pipeline/check_mesh.h"
+#include "molsurf/kernel/pipeline/check_mesh.h"
 
 #include "molsurf/error.h"
-#include "molsurf/mesh/measure.h"
+#include "molsurf/kernel/mesh/measure.h"
 #include "molsurf/surface.h"
 
 #include "unit/structure/temp_file.h"

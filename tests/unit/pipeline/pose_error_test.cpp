@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/pipeline/pose_error.h"
+#include "molsurf/kernel/pipeline/pose_error.h"
 
 #include "molsurf/surface.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/pockets/cut_graph.h"
+#include "molsurf/analysis/pockets/cut_graph.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/pockets/find_pockets.h"
+#include "molsurf/analysis/pockets/find_pockets.h"
 
-#include "molsurf/balls/ball_boundary.h"
-#include "molsurf/balls/excluded_measure.h"
+#include "molsurf/kernel/balls/ball_boundary.h"
+#include "molsurf/kernel/balls/excluded_measure.h"
 
 #include "support/molecules.h"
 

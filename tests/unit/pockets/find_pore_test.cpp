@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/pockets/find_pore.h"
+#include "molsurf/analysis/pockets/find_pore.h"
 
+#include "molsurf/analysis/pockets/clearance.h"
 #include "molsurf/error.h"
-#include "molsurf/pockets/clearance.h"
 
 #include "support/molecules.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/pockets/void_graph.h"
+#include "molsurf/analysis/pockets/void_graph.h"
 
-#include "molsurf/pockets/void_curve.h"
+#include "molsurf/analysis/pockets/void_curve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/pockets/watershed.h"
+#include "molsurf/analysis/pockets/watershed.h"
 
 #include <gtest/gtest.h>
 

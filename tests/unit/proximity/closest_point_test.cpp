@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/proximity/closest_point.h"
+#include "molsurf/analysis/proximity/closest_point.h"
 
 #include <gtest/gtest.h>
 

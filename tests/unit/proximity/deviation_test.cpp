@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/proximity/deviation.h"
+#include "molsurf/analysis/proximity/deviation.h"
 
 #include "support/solids.h"
 #include "support/surfaces.h"

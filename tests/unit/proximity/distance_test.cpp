@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/proximity/distance.h"
+#include "molsurf/analysis/proximity/distance.h"
 
 #include "support/convergence.h"
 #include "support/solids.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/ball_values.h"
+#include "molsurf/molecule/selection/ball_values.h"
 
-#include "molsurf/selection/scalar_map.h"
+#include "molsurf/molecule/selection/scalar_map.h"
 #include "unit/structure/temp_file.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/coarse_grain.h"
+#include "molsurf/molecule/selection/coarse_grain.h"
 
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>

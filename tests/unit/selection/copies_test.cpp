@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/choose_copies.h"
-#include "molsurf/selection/select_balls.h"
+#include "molsurf/molecule/selection/choose_copies.h"
+#include "molsurf/molecule/selection/select_balls.h"
 
 #include "support/groups.h"
 #include "unit/structure/temp_file.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/strings.h"
 #include "molsurf/error.h"
-#include "molsurf/selection/groups.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/selection/groups.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/read_structure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/match_atoms.h"
+#include "molsurf/molecule/selection/match_atoms.h"
 
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>

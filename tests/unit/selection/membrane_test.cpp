@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/membrane.h"
+#include "molsurf/molecule/selection/membrane.h"
 
-#include "molsurf/core/strings.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/read_structure.h"
 
 #include <gtest/gtest.h>
 #include <openvdb/math/Quat.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/selection_phrase.h"
+#include "molsurf/molecule/selection/selection_phrase.h"
 
-#include "molsurf/selection/match_atoms.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/selection/match_atoms.h"
+#include "molsurf/molecule/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>

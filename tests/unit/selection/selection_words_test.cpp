@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/selection/parse_selection.h"
+#include "molsurf/molecule/selection/parse_selection.h"
 
-#include "molsurf/selection/match_atoms.h"
-#include "molsurf/structure/load_text.h"
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/selection/match_atoms.h"
+#include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/molecule/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/spline/curvature.h"
+#include "molsurf/kernel/spline/curvature.h"
 
 #include "support/convergence.h"
 #include "support/fields.h"

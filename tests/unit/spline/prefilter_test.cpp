@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/spline/spline.h"
+#include "molsurf/kernel/spline/spline.h"
 
 #include "support/fields.h"
 

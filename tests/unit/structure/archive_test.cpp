@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/archive.h"
+#include "molsurf/molecule/structure/archive.h"
 
 #include "unit/structure/temp_file.h"
 

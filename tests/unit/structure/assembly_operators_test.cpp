@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/assembly_operators.h"
+#include "molsurf/molecule/structure/assembly_operators.h"
 #include "unit/structure/temp_file.h"
 
 namespace molsurf::test

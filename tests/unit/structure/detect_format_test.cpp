@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/detect_format.h"
+#include "molsurf/molecule/structure/detect_format.h"
 #include "unit/structure/temp_file.h"
 
 namespace molsurf::test

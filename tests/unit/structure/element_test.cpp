@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/element.h"
+#include "molsurf/molecule/structure/element.h"
 
-#include "molsurf/structure/guess_element.h"
-#include "molsurf/structure/residue_names.h"
+#include "molsurf/molecule/structure/guess_element.h"
+#include "molsurf/molecule/structure/residue_names.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/load_text.h"
+#include "molsurf/molecule/structure/load_text.h"
 #include "unit/structure/temp_file.h"
 
 #include <unistd.h>

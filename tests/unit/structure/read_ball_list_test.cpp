@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
 namespace molsurf::test

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/core/memory.h"
-#include "molsurf/structure/load_text.h"
-#include "molsurf/structure/read_structure.h"
-#include "molsurf/structure/readers.h"
-#include "molsurf/structure/residue_bonds.h"
-#include "molsurf/structure/residue_kind.h"
+#include "molsurf/kernel/core/memory.h"
+#include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/molecule/structure/read_structure.h"
+#include "molsurf/molecule/structure/readers.h"
+#include "molsurf/molecule/structure/residue_bonds.h"
+#include "molsurf/molecule/structure/residue_kind.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>

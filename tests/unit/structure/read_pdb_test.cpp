@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/read_structure.h"
-#include "molsurf/structure/residue_bonds.h"
+#include "molsurf/molecule/structure/read_structure.h"
+#include "molsurf/molecule/structure/residue_bonds.h"
 #include "unit/structure/temp_file.h"
 
 #include <algorithm>

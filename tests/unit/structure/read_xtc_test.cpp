@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/read_xtc.h"
+#include "molsurf/molecule/structure/read_xtc.h"
 
-#include "molsurf/structure/read_structure.h"
+#include "molsurf/molecule/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/residue_bonds.h"
+#include "molsurf/molecule/structure/residue_bonds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/residue_kind.h"
+#include "molsurf/molecule/structure/residue_kind.h"
 
-#include "molsurf/structure/read_structure.h"
-#include "molsurf/structure/residue_names.h"
+#include "molsurf/molecule/structure/read_structure.h"
+#include "molsurf/molecule/structure/residue_names.h"
 #include "unit/structure/temp_file.h"
 
 #include <cstdio>

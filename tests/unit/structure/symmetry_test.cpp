@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/structure/symmetry.h"
+#include "molsurf/molecule/structure/symmetry.h"
 
 #include "support/groups.h"
 #include "unit/structure/temp_file.h"

@@ -2,12 +2,12 @@
 // A whole from one unit of it, against the whole in one piece.
 
 #include "molsurf/error.h"
-#include "molsurf/mesh/measure.h"
-#include "molsurf/mesh/topology.h"
-#include "molsurf/selection/groups.h"
-#include "molsurf/selection/select_balls.h"
-#include "molsurf/selection/subset.h"
-#include "molsurf/structure/rotation_group.h"
+#include "molsurf/kernel/mesh/measure.h"
+#include "molsurf/kernel/mesh/topology.h"
+#include "molsurf/molecule/selection/groups.h"
+#include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/selection/subset.h"
+#include "molsurf/molecule/structure/rotation_group.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/run.h"
 #include "molsurf/surface/unit_mesh.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/surface/compare.h"
+#include "molsurf/analysis/measures/compare.h"
 
 #include "molsurf/error.h"
-#include "molsurf/pipeline/derived_grids.h"
+#include "molsurf/kernel/pipeline/derived_grids.h"
 #include "support/fields.h"
 #include "support/runs.h"
 #include "support/solids.h"

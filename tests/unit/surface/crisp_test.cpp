@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 // Borders of colours on real surfaces.
 
-#include "molsurf/color/crisp_borders.h"
-#include "molsurf/mesh/statistics.h"
+#include "molsurf/kernel/mesh/statistics.h"
+#include "molsurf/show/color/crisp_borders.h"
 #include "molsurf/surface.h"
 
 #include <gtest/gtest.h>

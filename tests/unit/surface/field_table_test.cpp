@@ -2,7 +2,7 @@
 #include "molsurf/surface/field_table.h"
 
 #include "molsurf/error.h"
-#include "molsurf/grid/grid_like.h"
+#include "molsurf/kernel/grid/grid_like.h"
 #include "molsurf/surface/product_table.h"
 #include "support/runs.h"
 

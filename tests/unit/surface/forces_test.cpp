@@ -2,12 +2,12 @@
 #include "molsurf/surface.h"
 
 #include "molsurf/error.h"
-#include "molsurf/flow/equilibrium.h"
-#include "molsurf/flow/evolve.h"
-#include "molsurf/mesh/patch_gradients.h"
-#include "molsurf/pipeline/carrier_of.h"
-#include "molsurf/pipeline/surface_kind.h"
-#include "molsurf/topology/gaps_of_sum.h"
+#include "molsurf/kernel/flow/equilibrium.h"
+#include "molsurf/kernel/flow/evolve.h"
+#include "molsurf/kernel/mesh/patch_gradients.h"
+#include "molsurf/kernel/pipeline/carrier_of.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/kernel/topology/gaps_of_sum.h"
 
 #include <gtest/gtest.h>
 

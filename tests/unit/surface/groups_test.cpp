@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/color/palette.h"
 #include "molsurf/error.h"
+#include "molsurf/show/color/palette.h"
 #include "support/runs.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/pipeline/surface_kind.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
 #include "support/runs.h"
 
 #include <gtest/gtest.h>

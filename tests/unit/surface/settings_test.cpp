@@ -2,7 +2,7 @@
 // The table of settings: every row sets and gives back what it says.
 
 #include "molsurf/error.h"
-#include "molsurf/selection/groups.h"
+#include "molsurf/molecule/selection/groups.h"
 #include "molsurf/settings.h"
 
 #include <gtest/gtest.h>

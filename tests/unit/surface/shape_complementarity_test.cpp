@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/surface/shape_complementarity.h"
+#include "molsurf/analysis/measures/shape_complementarity.h"
 
-#include "molsurf/selection/groups.h"
+#include "molsurf/molecule/selection/groups.h"
 #include "molsurf/surface.h"
 #include "support/molecules.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/unit_cut.h"
 
-#include "molsurf/mesh/measure.h"
+#include "molsurf/kernel/mesh/measure.h"
 #include "support/surfaces.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/topology/walls.h"
+#include "molsurf/kernel/topology/walls.h"
 #include "support/fields.h"
 #include "support/motion.h"
 #include "support/rings.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/topology/closed_passages.h"
-#include "molsurf/topology/gaps_of_sum.h"
+#include "molsurf/kernel/topology/closed_passages.h"
+#include "molsurf/kernel/topology/gaps_of_sum.h"
 
 #include <gtest/gtest.h>
 

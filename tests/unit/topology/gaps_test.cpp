@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/topology/gaps_of_sum.h"
+#include "molsurf/kernel/topology/gaps_of_sum.h"
 
 #include "support/fields.h"
 #include "support/molecules.h"

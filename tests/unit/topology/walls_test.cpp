@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "molsurf/topology/walls.h"
+#include "molsurf/kernel/topology/walls.h"
 
-#include "molsurf/levelset/closest_foot.h"
-#include "molsurf/levelset/seed_kinks.h"
+#include "molsurf/kernel/levelset/closest_foot.h"
+#include "molsurf/kernel/levelset/seed_kinks.h"
 #include "support/fields.h"
 #include "support/rings.h"
 

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/analysis/pockets/find_pockets.h"
+
+#include "molsurf/analysis/pockets/clearance.h"
+#include "molsurf/analysis/pockets/measure_basins.h"
+#include "molsurf/analysis/pockets/mouth_ways.h"
+#include "molsurf/kernel/balls/ball_index.h"
+#include "molsurf/kernel/balls/excluded_measure.h"
+#include "molsurf/kernel/balls/nearest_ball.h"
+#include "molsurf/kernel/core/disjoint_sets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace molsurf
+{
+
+using openvdb::Vec3f;
+
+namespace
+{
+
+constexpr double pocketDepth = 10.0; // a guess at the depth of a pocket and the probe [Å]
+
+/// The balls of walls with their parts of them, by basin.
+std::vector<std::vector<PocketReport::Lining>> liningsOf(const std::vector<Ball>& balls,
+                                                         const std::vector<BasinMeasure>& basins,
+                                                         double reach, const Progress& progress)
+{
+    std::vector<Vec3f> places;
+    for (const BasinMeasure& basin : basins)
+        for (const BasinMeasure::Wall& wall : basin.walls) places.push_back(wall.place);
+    const std::vector<std::int32_t> owners = nearestBalls(balls, places, reach, progress);
+    std::vector<std::vector<PocketReport::Lining>> out(basins.size());
+    std::size_t next = 0;
+    for (std::size_t b = 0; b < basins.size(); ++b) {
+        std::map<std::int32_t, double> areas;
+        for (const BasinMeasure::Wall& wall : basins[b].walls) {
+            const std::int32_t owner = owners[next++];
+            if (owner >= 0) areas[owner] += wall.area;
+        }
+        for (const auto& [ball, area] : areas) out[b].push_back({std::size_t(ball), area});
+    }
+    return out;
+}
+
+/// Some directions, evenly on a sphere.
+std::vector<openvdb::Vec3d> directions()
+{
+    constexpr int count = 60;
+    constexpr double golden = 2.399963229728653; // angle [rad]
+    std::vector<openvdb::Vec3d> out;
+    for (int k = 0; k < count; ++k) {
+        const double z = 1.0 - (2.0 * k + 1.0) / count, across = std::sqrt(1.0 - z * z);
+        out.emplace_back(across * std::cos(golden * k), across * std::sin(golden * k), z);
+    }
+    return out;
+}
+
+/// The radius of the largest ball in a pocket: from its widest voxel it moves to where it has more
+/// room, by longer steps as long as there is more and by shorter ones where there is not.
+/// @param[in] isWithin  whether a point is of the pocket
+double largestBall(const openvdb::Vec3d& widest, double voxelSize, const Clearance& clearance,
+                   const std::function<bool(const openvdb::Vec3d&)>& isWithin)
+{
+    constexpr double exact = 1e-3; // the last step [Å]
+    static const std::vector<openvdb::Vec3d> ways = directions();
+    openvdb::Vec3d at = widest;
+    double most = clearance.at(at);
+    for (double step = 0.5 * voxelSize; step > exact;) {
+        openvdb::Vec3d best = at;
+        for (const openvdb::Vec3d& way : ways) {
+            const openvdb::Vec3d x = at + way * step;
+            const double there = clearance.at(x);
+            if (there <= most || !isWithin(x)) continue;
+            most = there;
+            best = x;
+        }
+        step *= best == at ? 0.5 : 1.5;
+        at = best;
+    }
+    return most;
+}
+
+/// The report of a basin by its own measures.
+PocketReport pocketOf(const BasinMeasure& basin, const OuterDepth& outer)
+{
+    PocketReport out;
+    out.volume = basin.volume;
+    out.area = basin.area;
+    out.depth = outer.at(basin.deepest, false, pocketDepth).value;
+    for (int k = 0; k < 3; ++k) out.centre[std::size_t(k)] = basin.moment[k] / basin.volume;
+    return out;
+}
+
+/// The mouths of a pocket, the largest first. Where nothing on the way is narrower than the place
+/// where it begins the largest ball of the pocket gets out.
+/// @param[in] ways  to each mouth; where the graph has none, those of the voxels count
+std::vector<PocketReport::Mouth> mouthsOf(const BasinMeasure& basin,
+                                          const std::vector<MouthWay>& ways, double largest)
+{
+    std::vector<PocketReport::Mouth> out;
+    for (std::size_t m = 0; m < basin.mouths.size(); ++m) {
+        const BasinMeasure::Mouth& mouth = basin.mouths[m];
+        const bool known = ways[m].radius >= 0.0;
+        const openvdb::Vec3d& place = known ? ways[m].place : mouth.narrowest;
+        double radius = known ? ways[m].radius : mouth.radius;
+        if (known && !ways[m].isNarrower) radius = largest;
+        out.push_back({mouth.area, radius, {place[0], place[1], place[2]}});
+    }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const auto& a, const auto& b) { return a.area > b.area; });
+    return out;
+}
+
+/// Leaves out mouths that lead nowhere: those that are narrow, which are edges of the cut, and
+/// those of voids that the small probe does not reach from outside, which only touch the cut.
+void removeBlindMouths(const std::vector<Ball>& balls, double probe,
+                       std::vector<BasinMeasure>& basins, const Progress& progress)
+{
+    const double least = 0.5 * probe; // of the clearance, where a mouth is widest [Å]
+    const auto remove = [&](const auto& leadsNowhere) {
+        bool any = false;
+        for (BasinMeasure& basin : basins) {
+            auto& mouths = basin.mouths;
+            mouths.erase(std::remove_if(mouths.begin(), mouths.end(), leadsNowhere), mouths.end());
+            any = any || !mouths.empty();
+        }
+        return any;
+    };
+    using Mouth = BasinMeasure::Mouth;
+    if (!remove([=](const Mouth& mouth) { return mouth.widest < least; })) return;
+    const OuterDepth depth(balls, probe, OuterDepth::Reach::Passed, progress);
+    if (depth.hasVoids())
+        remove([&](const Mouth& mouth) { return !depth.isOutside(mouth.widestPlace, probe); });
+}
+
+/// The balls about a void in parts: those whose grown balls hang together, of parts that line it.
+/// @param[in] near  Ball::atom is the ball that the lining names
+std::vector<std::vector<Ball>> partsAbout(const std::vector<Ball>& near, double probe,
+                                          const std::vector<PocketReport::Lining>& lining)
+{
+    const BallIndex index(near, {1.0, probe, 1.0});
+    DisjointSets sets(near.size());
+    for (std::uint32_t i = 0; i < near.size(); ++i) {
+        const Ball& ball = near[i];
+        const double touch = ball.radius + 2.0 * probe;
+        index.forEachNear(ball.center, ball.center, touch, [&](const Ball& o, std::int32_t k) {
+            if ((o.center - ball.center).length() < o.radius + touch)
+                sets.join(i, std::uint32_t(k));
+        });
+    }
+    std::set<std::size_t> lines;
+    for (const PocketReport::Lining& part : lining) lines.insert(part.ball);
+    std::map<std::uint32_t, std::vector<Ball>> parts;
+    for (std::uint32_t i = 0; i < near.size(); ++i)
+        if (lines.count(std::size_t(near[i].atom))) parts[sets.find(i)];
+    for (std::uint32_t i = 0; i < near.size(); ++i) {
+        const auto part = parts.find(sets.find(i));
+        if (part != parts.end()) part->second.push_back(near[i]);
+    }
+    std::vector<std::vector<Ball>> out;
+    for (auto& [root, balls] : parts) out.push_back(std::move(balls));
+    return out;
+}
+
+/// Takes the exact measures of a pocket that is a whole cavity: those of the solvent-excluded
+/// surface of the balls about it. One part of them has the wall, a piece that faces inward; other
+/// parts are bodies in the cavity. It is the one of the nearest volume, if one is near.
+void takeExact(const BallIndex& balls, double probe, const BasinMeasure& basin,
+               const Progress& progress, PocketReport& pocket)
+{
+    // measured: a void of 16 Å^3 on voxels of 0.5 Å, 6 % too small
+    constexpr double same = 0.15; // of the volume, by which cavities are told from each other
+    openvdb::BBoxd box;
+    for (const BasinMeasure::Wall& wall : basin.walls) box.expand(openvdb::Vec3d(wall.place));
+    std::vector<Ball> near; // Ball::atom is the ball
+    balls.forEachNear(box.min(), box.max(), 2.5 * probe, [&](const Ball& ball, std::int32_t i) {
+        near.push_back({ball.center, ball.radius, i});
+    });
+    std::vector<std::vector<BoundaryPiece>> parts;
+    BoundaryPiece bodies; // all outer pieces
+    for (const std::vector<Ball>& part : partsAbout(near, probe, pocket.lining)) {
+        const BallBoundary boundary = ballBoundary(part, probe, progress);
+        parts.push_back(
+            measureExcluded(boundary, measureBoundary(boundary, progress), probe, false, progress)
+                .pieces);
+        for (const BoundaryPiece& piece : parts.back()) {
+            if (piece.volume < 0.0) continue;
+            bodies.volume += piece.volume;
+            bodies.area += piece.area;
+        }
+    }
+    double least = same * basin.volume;
+    for (const std::vector<BoundaryPiece>& part : parts) {
+        BoundaryPiece within = bodies;
+        for (const BoundaryPiece& piece : part) {
+            if (piece.volume < 0.0) continue;
+            within.volume -= piece.volume;
+            within.area -= piece.area;
+        }
+        for (const BoundaryPiece& piece : part) {
+            const double volume = -piece.volume - within.volume;
+            if (piece.volume >= 0.0 || std::abs(volume - basin.volume) >= least) continue;
+            least = std::abs(volume - basin.volume);
+            pocket.volume = volume;
+            pocket.area = piece.area + within.area;
+        }
+    }
+}
+
+/// Union-find of basins by their necks: whether a way leads out of each.
+std::vector<char> opened(const Basins& basins, const std::vector<BasinMeasure>& measures)
+{
+    DisjointSets sets(basins.count());
+    for (const Neck& neck : basins.necks)
+        sets.join(std::uint32_t(neck.basins[0]), std::uint32_t(neck.basins[1]));
+    std::vector<char> roots(basins.count(), 0), out;
+    for (std::uint32_t b = 0; b < measures.size(); ++b)
+        if (!measures[b].mouths.empty()) roots[sets.find(b)] = 1;
+    for (std::uint32_t b = 0; b < measures.size(); ++b) out.push_back(roots[sets.find(b)]);
+    return out;
+}
+
+/// A pocket, and its basin.
+using FoundPocket = std::pair<PocketReport, std::size_t>;
+
+/// The basin of the pocket that most of some places are nearest to, the first of several, or -1.
+std::int32_t basinAt(const VoidField& space, const Basins& basins,
+                     const std::vector<FoundPocket>& found, const std::vector<openvdb::Vec3d>& at)
+{
+    // measured: atoms of haems, retinals and of residues that line sites, 4hhb, 1u19 and 4at1: the
+    // centres of these lie within a radius and a probe of the pocket
+    constexpr double reach = 4.0; // [Å]
+    std::vector<char> isFound(basins.count(), 0);
+    for (const FoundPocket& one : found) isFound[one.second] = 1;
+    std::vector<double> least2(at.size(), reach * reach);
+    std::vector<std::int32_t> nearest(at.size(), -1);
+    for (std::size_t n = 0; n < space.table.size(); ++n) {
+        space.table.active(n).forEach([&](int v) {
+            const std::int32_t basin = basins.of.leaf(n)[v];
+            if (!isFound[std::size_t(basin)]) return;
+            const openvdb::Vec3d x =
+                space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
+                space.voxelSize;
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                const double square = (at[i] - x).lengthSqr();
+                if (square >= least2[i]) continue;
+                least2[i] = square;
+                nearest[i] = basin;
+            }
+        });
+    }
+    std::int32_t best = -1;
+    std::ptrdiff_t most = 0;
+    for (const FoundPocket& one : found) {
+        const auto basin = std::int32_t(one.second);
+        const auto count = std::count(nearest.begin(), nearest.end(), basin);
+        if (count <= most) continue;
+        most = count;
+        best = basin;
+    }
+    return best;
+}
+
+/// @param[in] numbers  of each basin its pocket, from 1, or 0
+void addNeighbours(const Basins& basins, const std::vector<std::int32_t>& numbers,
+                   std::vector<PocketReport>& pockets)
+{
+    for (const Neck& neck : basins.necks) {
+        const std::int32_t a = numbers[std::size_t(neck.basins[0])],
+                           b = numbers[std::size_t(neck.basins[1])];
+        if (a == 0 || b == 0) continue;
+        pockets[std::size_t(a - 1)].neighbours.push_back(std::size_t(b - 1));
+        pockets[std::size_t(b - 1)].neighbours.push_back(std::size_t(a - 1));
+    }
+    for (PocketReport& pocket : pockets)
+        std::sort(pocket.neighbours.begin(), pocket.neighbours.end());
+}
+
+/// Makes a grid of the voxels of pockets.
+/// @param[in] numbers  of each basin its pocket, from 1, or 0
+/// @param[in] of       gives the value of a voxel
+template<typename GridT, typename Of>
+typename GridT::Ptr voxelGrid(const char* name, const VoidField& space, const Basins& basins,
+                              const std::vector<std::int32_t>& numbers, const Of& of)
+{
+    using Leaf = typename GridT::TreeType::LeafNodeType;
+    const auto grid = GridT::create();
+    grid->setName(name);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(space.voxelSize));
+    for (std::size_t n = 0; n < space.table.size(); ++n) {
+        Leaf* leaf = nullptr;
+        space.table.active(n).forEach([&](int v) {
+            const std::int32_t number = numbers[std::size_t(basins.of.leaf(n)[v])];
+            if (number == 0) return;
+            if (!leaf) leaf = grid->tree().touchLeaf(space.table.origin(n));
+            leaf->setValueOn(openvdb::Index(v), of(n, v, number));
+        });
+    }
+    return grid;
+}
+
+/// The room of voxels that have any, and of those about them.
+openvdb::FloatGrid::Ptr roomGrid(const VoidField& space)
+{
+    const auto grid = openvdb::FloatGrid::create(-float(space.voxelSize));
+    grid->setName("pocket_room");
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(space.voxelSize));
+    auto to = grid->getUnsafeAccessor();
+    for (std::size_t n = 0; n < space.table.size(); ++n)
+        space.table.active(n).forEach([&](int v) {
+            const openvdb::Coord voxel = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
+            for (int k = 0; k < 27; ++k) {
+                const openvdb::Coord at = voxel.offsetBy(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+                const std::int32_t leaf = space.table.find(at);
+                if (leaf < 0 || to.isValueOn(at)) continue;
+                const int place = (at[0] & 7) << 6 | (at[1] & 7) << 3 | (at[2] & 7);
+                to.setValue(at, space.room(std::size_t(leaf), place));
+            }
+        });
+    return grid;
+}
+
+} // namespace
+
+Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options, double voxelSize,
+                    const std::vector<openvdb::Vec3d>& at, const Progress& progress)
+{
+    const VoidField space = voidField(balls, options, voxelSize, progress);
+    const double voxelVolume = voxelSize * voxelSize * voxelSize;
+    const double nearCut = options.probeOut + options.cut + 1.0; // a guess, as pocketDepth [Å]
+    const BelowCut below = [&](const openvdb::Vec3d& x, double room) {
+        OuterDepth::Depth depth = space.outer->at(x, room >= options.probeOut, nearCut);
+        depth.value -= options.cut;
+        return depth;
+    };
+    const RoomBasins split = splitAtRooms(
+        balls, options.probeIn, space, {options.neck, leastPocket / voxelVolume}, below, progress);
+    const Basins& basins = split.basins;
+    std::vector<BasinMeasure> measures = measureBasins(space, basins, progress);
+    removeBlindMouths(balls, options.probeIn, measures, progress);
+    const std::vector<char> isOpen = opened(basins, measures);
+    // A point of a wall is on a probe that touches balls.
+    std::vector<std::vector<PocketReport::Lining>> linings =
+        liningsOf(balls, measures, 2.0 * options.probeIn + voxelSize, progress);
+    const BallIndex index(balls, {1.0, options.probeIn, 1.0});
+    const Clearance clearance(balls);
+    const auto isWithin = [&](const openvdb::Vec3d& x) {
+        return below(x, clearance.at(x)).value >= 0.0;
+    };
+    const std::vector<std::vector<MouthWay>> ways = mouthWays(space, split, measures);
+    std::vector<char> hasNeck(basins.count(), 0);
+    for (const Neck& neck : basins.necks)
+        for (const std::int32_t basin : neck.basins) hasNeck[std::size_t(basin)] = 1;
+    std::vector<FoundPocket> found;
+    for (std::size_t b = 0; b < basins.count(); ++b) {
+        PocketReport pocket = pocketOf(measures[b], *space.outer);
+        pocket.open = isOpen[b];
+        pocket.mouths.resize(measures[b].mouths.size());
+        pocket.lining = std::move(linings[b]);
+        if (measures[b].mouths.empty() && !hasNeck[b])
+            takeExact(index, options.probeIn, measures[b], progress, pocket);
+        if (pocket.volume < leastPocket) continue;
+        pocket.radius = largestBall(measures[b].widest, voxelSize, clearance, isWithin);
+        pocket.mouths = mouthsOf(measures[b], ways[b], pocket.radius);
+        found.emplace_back(std::move(pocket), b);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first.volume > b.first.volume; });
+    if (!at.empty()) {
+        const std::int32_t kept = basinAt(space, basins, found, at);
+        found.erase(
+            std::remove_if(found.begin(), found.end(),
+                           [=](const auto& one) { return std::int32_t(one.second) != kept; }),
+            found.end());
+    }
+    Pockets out;
+    std::vector<std::int32_t> numbers(basins.count(), 0);
+    for (auto& [pocket, basin] : found) {
+        out.list.push_back(std::move(pocket));
+        numbers[basin] = std::int32_t(out.list.size());
+    }
+    addNeighbours(basins, numbers, out.list);
+    out.ids =
+        voxelGrid<openvdb::Int32Grid>("pocket_id", space, basins, numbers,
+                                      [](std::size_t, int, std::int32_t number) { return number; });
+    out.rooms = roomGrid(space);
+    out.depths = voxelGrid<openvdb::FloatGrid>(
+        "pocket_depth", space, basins, numbers, [&](std::size_t n, int v, std::int32_t) {
+            return space.below.leaf(n)[v] + float(options.cut);
+        });
+    return out;
+}
+
+} // namespace molsurf

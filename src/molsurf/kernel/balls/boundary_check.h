@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Checks the measures of a boundary by other ways to the same numbers.
+
+#include "molsurf/kernel/balls/ball_caps.h"
+#include "molsurf/kernel/balls/boundary_measure.h"
+#include "molsurf/progress.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace molsurf
+{
+
+/// The volume of a ball's cell in the power diagram, as far as it lies in the ball.
+struct CellVolume {
+    double volume;   ///< [Å^3]
+    double variance; ///< of the volume, estimated [Å^6]
+};
+
+/// Estimates the volume of the cell of a ball by rays from its centre: within the cell a ray runs
+/// between planes alone.
+/// @param[in] caps  of the ball's sphere
+/// @param[in] i     the ball's place; it chooses the directions
+/// @param[in] rays  a multiple of 16
+CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std::size_t rays);
+
+/// Rays for each of many balls, such that all cost about the same.
+std::size_t raysFor(std::size_t balls);
+
+/// Checks the measures of a boundary:
+/// - the area of every patch against the share of directions that no cap covers,
+/// - the volume, a flux through the boundary, against the sum of the cells of the power diagram,
+/// - the outer pieces against the parts of the union that hang together,
+/// - the Euler number of every piece, by corners, arcs and faces: even and at most 2.
+///
+/// @throws Error(ErrorKind::Check) with both numbers if they disagree by more than sampling allows
+void checkBoundary(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                   const Progress& progress);
+
+/// Measures a boundary, and checks the measures as above.
+BoundaryMeasure checkedMeasure(const BallBoundary& boundary, const Progress& progress);
+
+/// Largest errors of a mesh: of its area [Å^2] and its volume [Å^3].
+struct MeshTolerance {
+    double area, volume;
+};
+
+/// The area and volume that a mesh by voxels of edge h may lose at creases, in clefts between balls
+/// that hardly touch, and by cutting corners. A crease of length L takes up to h L of area and 0.4
+/// h^2 L of volume; a patch of area A on a ball of radius r, with a cleft on each of six sides, 1.5
+/// h A/r and 0.4 h^2 A/r. The measured losses are a third of these and less.
+MeshTolerance meshTolerance(const BallBoundary& boundary, const BoundaryMeasure& measure,
+                            double voxel);
+
+/// Checks area and volume of a mesh against those in closed form.
+/// @throws Error(ErrorKind::Check) with both numbers if they are farther apart than the tolerance
+void checkMesh(double exactArea, double exactVolume, double meshArea, double meshVolume,
+               const MeshTolerance& tolerance);
+
+} // namespace molsurf

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Finds things near a box by a tree of their bounding boxes, where their numbers follow a
+/// space-filling curve.
+
+#include "molsurf/kernel/core/simd.h"
+
+#include <openvdb/Types.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace molsurf
+{
+
+/// A box, its sides parallel to the axes [Å].
+struct Box {
+    openvdb::Vec3d low, high;
+
+    static Box about(const openvdb::Vec3d& centre, double radius)
+    {
+        return {centre - openvdb::Vec3d(radius), centre + openvdb::Vec3d(radius)};
+    }
+};
+
+/// A bounding volume hierarchy of eight children a node over groups of eight consecutive things:
+/// these are near each other, so no sorting is needed. Immutable once made; safe to read from all
+/// threads.
+class BoxTree
+{
+public:
+    static constexpr std::size_t group = floatLanes;
+
+    /// @param[in] boxes  one a thing
+    explicit BoxTree(const std::vector<Box>& boxes);
+
+    /// Calls f(g) in ascending order for groups g, of the things 8 g to 8 g + 7: all that have a
+    /// thing whose box meets the given one, and some more.
+    template<typename F>
+    void forEachNear(const Box& box, const F& f) const
+    {
+        if (!levels_.empty()) visit(rounded(box), levels_.size() - 1, 0, f);
+    }
+
+private:
+    /// Lower and upper ends along the axes, rounded outward.
+    using Ends = std::array<float, 6>;
+    static Ends rounded(const Box& box);
+
+    /// The boxes of nodes, number by number, padded by empty ones to whole groups.
+    using Level = std::array<std::vector<float>, 6>;
+
+    /// One bit for each of the eight boxes from `first` that meets a box.
+    static std::uint32_t meeting(const Level& level, std::size_t first, const Ends& box);
+
+    template<typename F>
+    void visit(const Ends& box, std::size_t level, std::size_t first, const F& f) const
+    {
+        for (std::uint32_t bits = meeting(levels_[level], first, box); bits != 0;
+             bits &= bits - 1) {
+            const std::size_t node = first + std::size_t(__builtin_ctz(bits));
+            if (level == 0) {
+                f(node);
+            } else {
+                visit(box, level - 1, group * node, f);
+            }
+        }
+    }
+
+    std::vector<Level> levels_; // the first has a box for each group of things, the last one group
+};
+
+} // namespace molsurf

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/kernel/balls/excluded_points.h"
+
+#include "molsurf/kernel/balls/ball_index.h"
+#include "molsurf/kernel/balls/toric_tube.h"
+#include "molsurf/kernel/core/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// A direction of the golden spiral, which gives each the same part of the sphere.
+Vec3d spiral(std::size_t k, std::size_t count)
+{
+    constexpr double golden = 0.6180339887498949;
+    const double z = 1.0 - (2.0 * double(k) + 1.0) / double(count);
+    const double across = std::sqrt((1.0 - z) * (1.0 + z)), angle = 2.0 * M_PI * golden * double(k);
+    return {across * std::cos(angle), across * std::sin(angle), z};
+}
+
+/// How many points a sphere has.
+std::size_t countOn(double radius, double density)
+{
+    return std::size_t(std::ceil(4.0 * M_PI * radius * radius * density));
+}
+
+void addContact(const BallBoundary& boundary, const Patch& patch, double probe, double density,
+                ExcludedPoints& out)
+{
+    const double r = patch.radius - probe;
+    const std::size_t count = countOn(std::max(r, 0.0), density);
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vec3d u = spiral(k, count);
+        if (isCovered(boundary, patch, u)) continue;
+        out.push_back({patch.centre + r * u, u, 4.0 * M_PI * r * r / double(count)});
+    }
+}
+
+void addToric(const BallBoundary& boundary, const Arc& arc, double probe, double density,
+              ExcludedPoints& out)
+{
+    const Tube tube = tubeOf(boundary, arc, probe);
+    const Vec3d across = arc.axis.cross(arc.middle);
+    const double steps = std::sqrt(density); // a length
+    const auto addBand = [&](double from, double to) {
+        const auto rings = std::size_t(std::ceil(std::max((to - from) * probe * steps, 0.0)));
+        for (std::size_t k = 0; k < rings; ++k) {
+            const double width = (to - from) / double(rings), low = from + double(k) * width;
+            const double f = low + 0.5 * width, radius = arc.radius - probe * std::cos(f);
+            const auto count =
+                std::size_t(std::max(1.0, std::round(2.0 * arc.half * radius * steps)));
+            const double area = areaOf(arc, probe, low, low + width) / double(count);
+            for (std::size_t i = 0; i < count; ++i) {
+                const double e = arc.half * ((2.0 * double(i) + 1.0) / double(count) - 1.0);
+                const Vec3d aside = std::cos(e) * arc.middle + std::sin(e) * across;
+                out.push_back({arc.centre + radius * aside + probe * std::sin(f) * arc.axis,
+                               std::cos(f) * aside - std::sin(f) * arc.axis, area});
+            }
+        }
+    };
+    if (!tube.isCut()) return addBand(tube.low, tube.high);
+    addBand(tube.low, -tube.cusp);
+    addBand(tube.cusp, tube.high);
+}
+
+/// Spreads points over the parts of probes that rest on three balls.
+class Concave
+{
+public:
+    Concave(const BallBoundary& boundary, double probe, double density)
+        : boundary_(boundary), probe_(probe), centres_(centresOf(boundary), {0.0, 0.0, 2.0})
+    {
+        const std::size_t count = countOn(probe, density);
+        for (std::size_t k = 0; k < count; ++k) directions_.push_back(spiral(k, count));
+    }
+
+    /// Adds the part of the probe at a corner that faces the triangle of its three balls, less what
+    /// lies in another probe.
+    void add(const Corner& corner, ExcludedPoints& out) const
+    {
+        std::array<Vec3d, 3> to, planes; // to the balls; normals of the sides, inward
+        for (std::size_t k = 0; k < 3; ++k)
+            to[k] = boundary_.balls[std::size_t(corner.balls[k])].centre() - corner.position;
+        for (std::size_t k = 0; k < 3; ++k) {
+            planes[k] = to[k].cross(to[(k + 1) % 3]);
+            if (planes[k].dot(to[(k + 2) % 3]) < 0.0) planes[k] = -planes[k];
+        }
+        std::vector<Vec3d> others; // ways to the probes that may cut this one
+        centres_.forEachNear(corner.position, corner.position, 2.0 * probe_,
+                             [&](const Ball& other, std::int32_t) {
+                                 const Vec3d way = Vec3d(other.center) - corner.position;
+                                 const double square = way.lengthSqr();
+                                 if (square > 0.0 && square < 4.0 * probe_ * probe_)
+                                     others.push_back(way);
+                             });
+        const double area = 4.0 * M_PI * probe_ * probe_ / double(directions_.size());
+        for (const Vec3d& u : directions_) {
+            const bool within = std::all_of(planes.begin(), planes.end(),
+                                            [&](const Vec3d& p) { return p.dot(u) > 0.0; });
+            if (!within || isCut(others, u)) continue;
+            out.push_back({corner.position + probe_ * u, -u, area});
+        }
+    }
+
+private:
+    static std::vector<Ball> centresOf(const BallBoundary& boundary)
+    {
+        std::vector<Ball> out(boundary.corners.size());
+        for (std::size_t c = 0; c < out.size(); ++c) out[c].center = boundary.corners[c].position;
+        return out;
+    }
+
+    /// Whether another probe is nearer to the point in a direction.
+    bool isCut(const std::vector<Vec3d>& others, const Vec3d& u) const
+    {
+        return std::any_of(others.begin(), others.end(), [&](const Vec3d& way) {
+            return 2.0 * probe_ * u.dot(way) > way.lengthSqr();
+        });
+    }
+
+    const BallBoundary& boundary_;
+    double probe_;
+    BallIndex centres_;
+    std::vector<Vec3d> directions_;
+};
+
+} // namespace
+
+ExcludedPoints excludedPoints(const BallBoundary& boundary, double probe, double density,
+                              const Progress& progress)
+{
+    const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
+    const Concave concave(boundary, probe, density);
+    return parallelCollect<ExcludedPoint>(
+        patches + arcs + boundary.corners.size(), progress,
+        [&](std::size_t i, ExcludedPoints& out) {
+            if (i < patches)
+                addContact(boundary, boundary.patches[i], probe, density, out);
+            else if (i < patches + arcs)
+                addToric(boundary, boundary.arcs[i - patches], probe, density, out);
+            else
+                concave.add(boundary.corners[i - patches - arcs], out);
+        });
+}
+
+} // namespace molsurf

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/kernel/grid/leaf_table.h"
+
+#include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/core/simd.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+
+LeafField copied(const LeafField& field)
+{
+    LeafField copy(field.leafCount());
+    for (std::size_t n = 0; n < field.leafCount(); ++n)
+        std::copy_n(field.leaf(n), leafSize, copy.leaf(n));
+    return copy;
+}
+
+namespace
+{
+
+/// The voxels of a leaf whose values, or their sizes, are below a limit.
+template<bool size>
+inline __attribute__((always_inline)) LeafMask below(const float* values, float limit)
+{
+    constexpr int vectors = 32 / floatLanes; // of half a plane
+    Ints bit[vectors];
+    for (int k = 0; k < 32; ++k) bit[k / floatLanes][k % floatLanes] = std::int32_t(1u << k);
+    LeafMask mask;
+    for (int half = 0; half < 2 * leafDim; ++half) {
+        Ints bits = {};
+        for (int i = 0; i < vectors; ++i) {
+            Floats v = *reinterpret_cast<const Floats*>(values + 32 * half + floatLanes * i);
+            if (size) v = v < 0.0f ? -v : v;
+            bits |= v < limit ? bit[i] : Ints{};
+        }
+        mask.words[half / 2] |= std::uint64_t(bitsOf(bits)) << (32 * (half & 1));
+    }
+    return mask;
+}
+
+} // namespace
+
+MOLSURF_KERNEL LeafMask lessThan(const float* values, float limit)
+{
+    return below<false>(values, limit);
+}
+
+MOLSURF_KERNEL LeafMask within(const float* values, float limit)
+{
+    return below<true>(values, limit);
+}
+
+namespace
+{
+
+/// The order of leaves.
+bool before(const Coord& a, const Coord& b)
+{
+    const Coord s = a >> 6, t = b >> 6;
+    return s != t ? s < t : a < b;
+}
+
+} // namespace
+
+/// The slot of a tile, or the empty one where it would be: a hash table with linear probing.
+std::size_t LeafTable::Layout::slotOf(const Coord& place) const
+{
+    const std::size_t last = slots.size() - 1;
+    std::uint64_t hash = std::uint32_t(place.x()) * 0x9e3779b97f4a7c15ull ^
+                         std::uint32_t(place.y()) * 0xc2b2ae3d27d4eb4full ^
+                         std::uint32_t(place.z()) * 0x165667b19e3779f9ull;
+    hash ^= hash >> 32;
+    std::size_t slot = std::size_t(hash) & last;
+    while (slots[slot] >= 0 && tiles[std::size_t(slots[slot])].place != place)
+        slot = (slot + 1) & last;
+    return slot;
+}
+
+std::int32_t LeafTable::Layout::find(const Coord& voxel) const
+{
+    const std::int32_t tile = slots[slotOf(voxel >> 6)];
+    if (tile < 0) return noLeaf;
+    const Coord leaf = (voxel >> 3) & 7;
+    return tiles[std::size_t(tile)].leaves[std::size_t(64 * leaf.x() + 8 * leaf.y() + leaf.z())];
+}
+
+LeafTable::LeafTable(std::vector<Coord> origins) : active_(origins.size())
+{
+    auto layout = std::make_shared<Layout>();
+    Layout& l = *layout;
+    l.origins = std::move(origins);
+    if (!std::is_sorted(l.origins.begin(), l.origins.end(), before)) {
+        tbb::parallel_sort(l.origins.begin(), l.origins.end(), before);
+    }
+    l.slots.assign(64, -1); // twice as many as tiles, or more
+    std::int32_t last = -1; // the tile of the leaf before
+    for (std::size_t n = 0; n < l.origins.size(); ++n) {
+        const Coord place = l.origins[n] >> 6, leaf = (l.origins[n] >> 3) & 7;
+        if (last < 0 || l.tiles[std::size_t(last)].place != place) {
+            last = l.slots[l.slotOf(place)];
+        }
+        if (last < 0) {
+            last = std::int32_t(l.tiles.size());
+            l.tiles.emplace_back();
+            l.tiles.back().place = place;
+            l.tiles.back().leaves.fill(noLeaf);
+            if (2 * l.tiles.size() > l.slots.size()) {
+                l.slots.assign(2 * l.slots.size(), -1);
+                for (std::size_t t = 0; t < l.tiles.size(); ++t)
+                    l.slots[l.slotOf(l.tiles[t].place)] = std::int32_t(t);
+            } else {
+                l.slots[l.slotOf(place)] = last;
+            }
+        }
+        l.tiles[std::size_t(last)].leaves[std::size_t(64 * leaf.x() + 8 * leaf.y() + leaf.z())] =
+            std::int32_t(n);
+    }
+
+    l.neighbours.resize(l.origins.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, l.origins.size(), 256), [&](auto range) {
+        for (std::size_t n = range.begin(); n != range.end(); ++n) {
+            const Coord origin = l.origins[n], leaf = (origin >> 3) & 7;
+            const Tile& tile = l.tiles[std::size_t(l.slots[l.slotOf(origin >> 6)])];
+            for (int k = 0; k < 27; ++k) {
+                const int dx = k / 9 - 1, dy = k / 3 % 3 - 1, dz = k % 3 - 1;
+                const int x = leaf.x() + dx, y = leaf.y() + dy, z = leaf.z() + dz;
+                l.neighbours[n][std::size_t(k)] =
+                    ((x | y | z) & ~7) == 0
+                        ? tile.leaves[std::size_t(64 * x + 8 * y + z)]
+                        : l.find(origin.offsetBy(leafDim * dx, leafDim * dy, leafDim * dz));
+            }
+        }
+    });
+    layout_ = std::move(layout);
+}
+
+std::size_t LeafTable::activeCount() const
+{
+    std::size_t count = 0;
+    for (const LeafMask& mask : active_) count += mask.count();
+    return count;
+}
+
+std::size_t LeafTable::bytes() const
+{
+    return size() * (sizeof(Coord) + sizeof(LeafMask) + sizeof(layout_->neighbours[0])) +
+           layout_->tiles.size() * sizeof(Tile) + layout_->slots.size() * sizeof(std::int32_t);
+}
+
+namespace
+{
+
+constexpr std::uint64_t rowEnd = 0x8080808080808080ull; // z = 7 of all rows
+constexpr std::uint64_t rowBegin = 0x0101010101010101ull;
+
+/// One yz plane of 8 x 8 voxels and the planes of the leaves about it. Voxel (y, z) is bit 8 y + z:
+/// a step along y shifts by 8, one along z by 1 but for the ends of rows.
+struct Planes {
+    std::uint64_t at[3][3]; // [dy + 1][dz + 1]
+};
+
+/// The voxels of the centre plane that have a voxel of the set within one step in y or z.
+std::uint64_t spreadFace(const Planes& p)
+{
+    const std::uint64_t c = p.at[1][1];
+    std::uint64_t out = c | (c << 8) | (c >> 8);
+    out |= p.at[0][1] >> 56 | p.at[2][1] << 56;
+    out |= (c & ~rowEnd) << 1 | (c & ~rowBegin) >> 1;
+    out |= (p.at[1][0] & rowEnd) >> 7 | (p.at[1][2] & rowBegin) << 7;
+    return out;
+}
+
+/// The same for one step in y and one in z.
+std::uint64_t spreadFull(const Planes& p)
+{
+    std::uint64_t alongZ[3];
+    for (int i = 0; i < 3; ++i) {
+        const std::uint64_t c = p.at[i][1];
+        alongZ[i] = c | (c & ~rowEnd) << 1 | (c & ~rowBegin) >> 1 | (p.at[i][0] & rowEnd) >> 7 |
+                    (p.at[i][2] & rowBegin) << 7;
+    }
+    return alongZ[1] | alongZ[1] << 8 | alongZ[1] >> 8 | alongZ[0] >> 56 | alongZ[2] << 56;
+}
+
+/// The box of the voxels of a mask that is not empty.
+struct Extent {
+    int low[3], high[3];
+
+    explicit Extent(const LeafMask& mask)
+    {
+        std::uint64_t all = 0;
+        low[0] = high[0] = -1;
+        for (int x = 0; x < leafDim; ++x) {
+            if (mask.words[x] == 0) continue;
+            if (low[0] < 0) low[0] = x;
+            high[0] = x;
+            all |= mask.words[x];
+        }
+        std::uint64_t rows = all; // to one byte: the z of any row
+        for (const int shift : {32, 16, 8}) rows |= rows >> shift;
+        const unsigned z = unsigned(rows & 0xff);
+        low[1] = __builtin_ctzll(all) >> 3;
+        high[1] = (63 - __builtin_clzll(all)) >> 3;
+        low[2] = __builtin_ctz(z);
+        high[2] = 31 - __builtin_clz(z);
+    }
+
+    /// Whether a voxel of the leaf at an offset lies within a number of steps of the box.
+    bool reaches(int dx, int dy, int dz, int steps) const
+    {
+        const int offset[3] = {dx, dy, dz};
+        for (int a = 0; a < 3; ++a) {
+            if (offset[a] < 0 && low[a] - steps >= 0) return false;
+            if (offset[a] > 0 && high[a] + steps < leafDim) return false;
+        }
+        return true;
+    }
+};
+
+} // namespace
+
+LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks, std::size_t n,
+                     bool full)
+{
+    const auto& near = table.neighbours(n);
+    const auto plane = [&](int x, int dy, int dz) -> std::uint64_t {
+        const int dx = x < 0 ? 0 : x > 7 ? 2 : 1;
+        const std::int32_t m = near[9 * dx + 3 * dy + dz];
+        return m == noLeaf ? 0 : masks[m].words[x & 7];
+    };
+    LeafMask out;
+    std::uint64_t spread[10], plain[10];
+    for (int x = -1; x <= 8; ++x) {
+        Planes p;
+        for (int i = 0; i < 9; ++i) p.at[i / 3][i % 3] = plane(x, i / 3, i % 3);
+        plain[x + 1] = p.at[1][1];
+        spread[x + 1] = full ? spreadFull(p) : spreadFace(p);
+    }
+    const std::uint64_t* sides = full ? spread : plain;
+    for (int x = 0; x < 8; ++x) out.words[x] = sides[x] | spread[x + 1] | sides[x + 2];
+    return out;
+}
+
+LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progress& progress)
+{
+    std::vector<Coord> added;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        const LeafMask& active = table.active(n);
+        if (!active.any()) continue;
+        const Extent extent(active);
+        for (int k = 0; k < 27; ++k) {
+            if (table.neighbours(n)[k] != noLeaf) continue;
+            const int dx = k / 9 - 1, dy = k / 3 % 3 - 1, dz = k % 3 - 1;
+            if (!extent.reaches(dx, dy, dz, steps)) continue;
+            added.push_back(table.origin(n).offsetBy(leafDim * dx, leafDim * dy, leafDim * dz));
+        }
+    }
+    tbb::parallel_sort(added.begin(), added.end(), before);
+    added.erase(std::unique(added.begin(), added.end()), added.end());
+    std::vector<Coord> origins;
+    origins.reserve(table.size() + added.size());
+    std::merge(table.origins().begin(), table.origins().end(), added.begin(), added.end(),
+               std::back_inserter(origins), before);
+    LeafTable out(std::move(origins));
+
+    std::vector<LeafMask> now(out.size()), next(out.size());
+    for (std::size_t n = 0, m = 0; n < out.size() && m < table.size(); ++n) {
+        if (table.origin(m) == out.origin(n)) now[n] = table.active(m++);
+    }
+    for (int step = 0; step < steps; ++step) {
+        const bool full = spread == Spread::Cube || step % 2 == 1;
+        parallelFor(out.size(), progress,
+                    [&](std::size_t n) { next[n] = dilatedMask(out, now, n, full); });
+        now.swap(next);
+    }
+    for (std::size_t n = 0; n < out.size(); ++n) out.active(n) = now[n];
+    return pruned(out);
+}
+
+namespace
+{
+
+/// The leaves of a table that keep(n) names, with their active voxels.
+template<typename F>
+LeafTable filtered(const LeafTable& table, const F& keep)
+{
+    std::vector<Coord> origins;
+    std::vector<LeafMask> masks;
+    origins.reserve(table.size());
+    masks.reserve(table.size());
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        if (!keep(n)) continue;
+        origins.push_back(table.origin(n));
+        masks.push_back(table.active(n));
+    }
+    LeafTable out(std::move(origins)); // already in order
+    for (std::size_t n = 0; n < out.size(); ++n) out.active(n) = masks[n];
+    return out;
+}
+
+} // namespace
+
+LeafTable pruned(const LeafTable& table)
+{
+    return filtered(table, [&](std::size_t n) { return table.active(n).any(); });
+}
+
+LeafTable joined(const LeafTable& a, const LeafTable& b)
+{
+    std::vector<Coord> origins = a.origins();
+    for (const Coord& origin : b.origins()) {
+        if (a.find(origin) == noLeaf) origins.push_back(origin);
+    }
+    LeafTable out(std::move(origins));
+    for (const LeafTable* table : {&a, &b}) {
+        for (std::size_t n = 0; n < table->size(); ++n)
+            out.active(std::size_t(out.find(table->origin(n)))) |= table->active(n);
+    }
+    return out;
+}
+
+LeafTable clipped(const LeafTable& table, const openvdb::CoordBBox& box)
+{
+    if (box == openvdb::CoordBBox::inf()) return table;
+    return filtered(table, [&](std::size_t n) { return box.isInside(table.origin(n)); });
+}
+
+} // namespace molsurf

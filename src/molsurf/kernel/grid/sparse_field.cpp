@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/kernel/grid/sparse_field.h"
+
+#include "molsurf/kernel/core/parallel.h"
+
+#include <openvdb/tools/SignedFloodFill.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace molsurf
+{
+
+SparseField copied(const SparseField& field)
+{
+    return {field.table, copied(field.values), field.voxelSize};
+}
+
+SparseField clipped(SparseField field, const openvdb::CoordBBox& box, const Progress& progress)
+{
+    if (box == openvdb::CoordBBox::inf()) return field;
+    LeafTable inner = clipped(field.table, box);
+    LeafField values(inner.size());
+    parallelFor(inner.size(), progress, [&](std::size_t n) {
+        const std::int32_t m = field.table.find(inner.origin(n));
+        std::copy_n(field.leaf(std::size_t(m)), leafSize, values.leaf(n));
+    });
+    return {std::move(inner), std::move(values), field.voxelSize};
+}
+
+openvdb::FloatGrid::Ptr toLevelSet(const SparseField& field, double halfWidth,
+                                   const Progress& progress)
+{
+    using Leaf = openvdb::FloatTree::LeafNodeType;
+    const LeafTable& table = field.table;
+    const float background = float(halfWidth);
+    std::vector<Leaf*> leaves(table.size(), nullptr);
+    parallelFor(table.size(), progress, [&](std::size_t n) {
+        const LeafMask& active = table.active(n);
+        if (!active.any()) return;
+        auto* leaf = new Leaf(table.origin(n), background);
+        float* out = leaf->buffer().data();
+        const float* in = field.leaf(n);
+        for (int v = 0; v < leafSize; ++v) {
+            const float value = active.on(v) ? in[v] : std::copysign(background, in[v]);
+            out[v] = std::min(std::max(value, -background), background);
+        }
+        Leaf::NodeMaskType mask;
+        for (int x = 0; x < 8; ++x) mask.getWord<openvdb::Index64>(x) = active.words[x];
+        leaf->setValueMask(mask);
+        leaves[n] = leaf;
+    });
+    auto grid = openvdb::createLevelSet<openvdb::FloatGrid>(field.voxelSize, 3.0);
+    grid->setTree(std::make_shared<openvdb::FloatTree>(background));
+    for (Leaf* leaf : leaves) {
+        if (leaf) grid->tree().addLeaf(leaf);
+    }
+    // Inside leaves the signs are known; the filling would guess them along rows.
+    constexpr bool threaded = true;
+    constexpr std::size_t grainSize = 1;
+    constexpr openvdb::Index aboveLeaves = 1;
+    openvdb::tools::signedFloodFill(grid->tree(), threaded, grainSize, aboveLeaves);
+    return grid;
+}
+
+SparseField fromGrid(const openvdb::FloatGrid& grid)
+{
+    std::vector<openvdb::Coord> origins;
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) origins.push_back(leaf->origin());
+    SparseField field;
+    field.voxelSize = grid.voxelSize()[0];
+    field.table = LeafTable(std::move(origins));
+    field.values = LeafField(field.table.size());
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        const auto n = std::size_t(field.table.find(leaf->origin()));
+        for (int v = 0; v < leafSize; ++v) {
+            field.leaf(n)[v] = leaf->getValue(openvdb::Index(v));
+            field.table.active(n).set(v, leaf->isValueOn(openvdb::Index(v)));
+        }
+    }
+    return field;
+}
+
+} // namespace molsurf

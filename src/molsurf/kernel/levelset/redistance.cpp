@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/kernel/levelset/redistance.h"
+
+#include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/levelset/leaf_distances.h"
+#include "molsurf/kernel/levelset/seed_kinks.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace molsurf
+{
+
+namespace
+{
+
+/// Replaces the nearest seed of each voxel of a leaf by its signed distance; makes voxels of the
+/// band active.
+/// @param[in]     negative  the voxels inside
+/// @param[in]     level  that gets the best distances [Å]
+/// @param[in,out] band   the leaf's active voxels and kinks are set, and its values: bytes of the
+///                       seeds' indices before
+void takeDistances(LeafDistances leaf, const LeafMask& negative, const BandWidths& width,
+                   double level, std::size_t n, DistanceBand& band)
+{
+    const float h = float(band.phi.voxelSize);
+    float* phi = band.phi.leaf(n);
+    std::int32_t own[leafSize];
+    std::memcpy(own, phi, sizeof own);
+    LeafMask reached;
+    for (int v = 0; v < leafSize; ++v) {
+        phi[v] = negative.on(v) ? float(-width.inside) : float(width.outside);
+        reached.set(v, own[v] != noSeed);
+    }
+    std::uint16_t voxels[leafSize];
+    const int count = listOf(reached, voxels);
+    float distance[leafSize];
+    leaf.compute(own, voxels, count, negative, float(level) / h, distance);
+    LeafMask active;
+    for (int k = 0; k < count; ++k) {
+        const int v = voxels[k];
+        const float d = std::max(distance[v], 1e-6f) * h;
+        if (d >= float(negative.on(v) ? width.inside : width.outside)) continue;
+        phi[v] = negative.on(v) ? -d : d;
+        active.set(v);
+    }
+    band.phi.table.active(n) = active;
+    band.kinks.active(n) &= active;
+}
+
+} // namespace
+
+DistanceBand distancesBy(NearestSeeds near, LeafTable kinks, const BandWidths& width, double level,
+                         const Progress& progress)
+{
+    DistanceBand band;
+    band.phi.voxelSize = near.coefficients.voxelSize;
+    band.phi.table = near.domain;
+    band.kinks = std::move(kinks);
+    band.phi.values = std::move(near.index).reused<float>();
+    parallelFor(near.domain.size(), progress, [&](std::size_t n) {
+        takeDistances(LeafDistances(near, near.domain.origin(n)), near.inside[n], width, level, n,
+                      band);
+    });
+    return band;
+}
+
+DistanceBand redistance(SparseField phi, const BandWidths& width, double level,
+                        const Progress& progress, const openvdb::CoordBBox& box)
+{
+    NearestSeeds near = nearestSeeds(std::move(phi), width, level, box, progress);
+    SeedKinks kinks = kinksOf(near, progress);
+    return distancesBy(std::move(near), std::move(kinks.kinks), width, level, progress);
+}
+
+} // namespace molsurf

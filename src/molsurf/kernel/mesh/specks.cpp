@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/kernel/mesh/specks.h"
+
+#include "molsurf/kernel/core/spherical_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace molsurf
+{
+
+using openvdb::Coord;
+using openvdb::Vec3d;
+
+namespace
+{
+
+/// Flood fill: the voxels of one sign that are connected to a voxel through faces.
+/// @return empty if they do not stay in a box, as those beside the piece do
+std::vector<Coord> enclosedVoxels(const openvdb::FloatGrid::ConstAccessor& surface,
+                                  const Coord& start, bool inside, const openvdb::CoordBBox& box)
+{
+    std::set<Coord> seen = {start};
+    std::vector<Coord> found = {start};
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (!box.isInside(found[i])) return {};
+        for (int k = 0; k < 6; ++k) {
+            Coord next = found[i];
+            next[k / 2] += k % 2 ? 1 : -1;
+            if ((surface.getValue(next) < 0.0f) == inside && seen.insert(next).second)
+                found.push_back(next);
+        }
+    }
+    return found;
+}
+
+/// A closed piece of a mesh.
+struct Piece {
+    std::vector<std::uint32_t> vertices;
+    std::vector<std::size_t> triangles;
+};
+
+/// The winding number of a piece about a point, without sign, by the solid angles of its triangles:
+/// 1 within it, 0 outside.
+double coverOf(const Mesh& mesh, const Piece& piece, const Vec3d& x)
+{
+    double sum = 0.0;
+    for (const std::size_t t : piece.triangles) {
+        Vec3d way[3];
+        for (int k = 0; k < 3; ++k)
+            way[k] = (Vec3d(mesh.positions[mesh.triangles[t][k]]) - x).unitSafe();
+        sum += sphericalArea(way[0], way[1], way[2]);
+    }
+    return std::abs(sum) / (4.0 * M_PI);
+}
+
+/// Changes the signs of the voxels that a piece encloses: of the connected sets of one sign beside
+/// its vertices those that it winds about, or the nearest. Sets of other pieces may be as near.
+void fill(const Mesh& mesh, const Piece& piece, openvdb::FloatGrid& surface)
+{
+    const double voxel = surface.voxelSize()[0];
+    const std::vector<std::uint32_t>& vertices = piece.vertices;
+    openvdb::CoordBBox box;
+    for (const std::uint32_t v : vertices)
+        box.expand(Coord::floor(Vec3d(mesh.positions[v]) / voxel));
+    box.min() -= Coord(1);
+    box.max() += Coord(2);
+    openvdb::FloatGrid::Accessor access = surface.getAccessor();
+    std::set<Coord> seen;
+    std::vector<Coord> nearest; // voxels, for a flat piece that lies beside those it encloses
+    double least = std::numeric_limits<double>::max();
+    bool within = false;
+    Vec3d middle(0.0);
+    for (const std::uint32_t v : vertices) middle += Vec3d(mesh.positions[v]);
+    middle /= double(vertices.size());
+    const auto change = [&](const std::vector<Coord>& voxels) {
+        for (const Coord& ijk : voxels) access.setValueOnly(ijk, -access.getValue(ijk));
+    };
+    for (const std::uint32_t v : vertices) {
+        const Vec3d x = Vec3d(mesh.positions[v]) / voxel;
+        constexpr double beside = 1.5; // of vertices, which slide along the surface [voxel]
+        const openvdb::CoordBBox about(Coord::ceil(x - Vec3d(beside)),
+                                       Coord::floor(x + Vec3d(beside)));
+        for (auto corner = about.begin(); corner; ++corner) {
+            if (!seen.insert(*corner).second) continue;
+            std::vector<Coord> voxels = enclosedVoxels(surface.getConstAccessor(), *corner,
+                                                       access.getValue(*corner) < 0.0f, box);
+            seen.insert(voxels.begin(), voxels.end());
+            const bool own = std::any_of(voxels.begin(), voxels.end(), [&](const Coord& ijk) {
+                return coverOf(mesh, piece, voxel * ijk.asVec3d()) > 0.5;
+            });
+            if (own) change(voxels);
+            within = within || own;
+            for (const Coord& ijk : voxels) {
+                const double distance = (voxel * ijk.asVec3d() - middle).length();
+                if (distance >= least) continue;
+                least = distance;
+                nearest = voxels;
+            }
+        }
+    }
+    if (!within) change(nearest);
+}
+
+} // namespace
+
+std::vector<std::uint32_t> removePieces(const MeshPieces& pieces, const std::vector<char>& gone,
+                                        Mesh& mesh)
+{
+    std::vector<std::uint32_t> kept, numbers(mesh.positions.size());
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        numbers[v] = std::uint32_t(kept.size());
+        if (!gone[pieces.of[v]]) kept.push_back(v);
+    }
+    std::size_t count = 0, next = 0; // triangles that stay, part
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (; next < mesh.parts.size() && mesh.parts[next].firstTriangle == t; ++next)
+            mesh.parts[next].firstTriangle = count;
+        const auto [a, b, c] = mesh.triangles[t];
+        if (!gone[pieces.of[a]]) mesh.triangles[count++] = {numbers[a], numbers[b], numbers[c]};
+    }
+    for (; next < mesh.parts.size(); ++next) mesh.parts[next].firstTriangle = count;
+    mesh.triangles.resize(count);
+    keepVertices(kept, mesh.positions);
+    keepVertices(kept, mesh.normals);
+    keepVertices(kept, mesh.colors);
+    for (auto& a : mesh.scalars) keepVertices(kept, a.values);
+    for (auto& a : mesh.labels) keepVertices(kept, a.values);
+    return kept;
+}
+
+std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
+                                                     openvdb::FloatGrid& surface, Mesh& mesh)
+{
+    constexpr double rounding = 1e-3; // of the integral of the normal over a closed piece
+    const double least = leastPiece * std::pow(surface.voxelSize()[0], 3);
+    const std::size_t count = pieces.measures.size();
+    std::vector<char> small(count, 0);
+    for (std::size_t p = 0; p < count; ++p) small[p] = std::abs(pieces.measures[p].volume) < least;
+    if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
+
+    // A piece that is cut open has no volume.
+    std::vector<Vec3d> normals(count, Vec3d(0.0));
+    for (const auto& t : mesh.triangles) {
+        if (!small[pieces.of[t[0]]]) continue;
+        const Vec3d a(mesh.positions[t[0]]);
+        normals[pieces.of[t[0]]] +=
+            0.5 * (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a);
+    }
+    for (std::size_t p = 0; p < count; ++p)
+        small[p] = small[p] && normals[p].length() <= rounding * pieces.measures[p].area;
+    if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
+
+    std::vector<Piece> specks(count);
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+        if (small[pieces.of[v]]) specks[pieces.of[v]].vertices.push_back(v);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t p = pieces.of[mesh.triangles[t][0]];
+        if (small[p]) specks[p].triangles.push_back(t);
+    }
+    for (std::size_t p = 0; p < count; ++p)
+        if (small[p]) fill(mesh, specks[p], surface);
+
+    std::vector<std::uint32_t> kept = removePieces(pieces, small, mesh);
+    std::vector<std::uint32_t> places(count);
+    std::vector<PieceMeasure> measures;
+    for (std::size_t p = 0; p < count; ++p) {
+        places[p] = std::uint32_t(measures.size());
+        if (!small[p]) measures.push_back(pieces.measures[p]);
+    }
+    keepVertices(kept, pieces.of);
+    for (std::uint32_t& p : pieces.of) p = places[p];
+    pieces.measures = std::move(measures);
+    return kept;
+}
+
+} // namespace molsurf

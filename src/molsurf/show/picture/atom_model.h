@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Atoms as balls, sticks and tubes, to be seen beside a surface.
+
+#include "molsurf/atoms.h"
+#include "molsurf/kernel/mesh/mesh_instance.h"
+#include "molsurf/mesh.h"
+#include "molsurf/progress.h"
+#include "molsurf/show/color/legend.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace molsurf
+{
+
+struct FileBonds;
+struct ShownAtoms;
+
+/// Balls, sticks and tubes: copies of parts of a mesh, which may be stretched.
+struct AtomModel {
+    Mesh mesh; ///< a ball and a stick of radius 1, and the tubes as they are
+    std::vector<MeshInstance> instances;
+    std::vector<LegendEntry> chains, elements; ///< of tubes, and of balls and sticks
+    std::vector<LegendEntry> pockets;          ///< of bodies
+    Mesh bodies;                               ///< that let light through, with colours
+};
+
+/// A way to show atoms.
+struct AtomStyle {
+    const char* word; ///< of the command line
+    const char* help;
+    void (*add)(const ShownAtoms& shown, const Progress& progress, AtomModel& model);
+    /// About what the atoms take while they are drawn [byte].
+    double (*bytesOf)(const BallSet& atoms);
+};
+
+/// All of them: sticks, balls, orders, spheres, tube.
+const std::vector<AtomStyle>& atomStyles();
+
+/// Atoms of a structure and how they are shown.
+struct ShowRule {
+    std::string select; ///< as SelectOptions::select; empty: all
+    const AtomStyle* style = nullptr;
+    bool golden = false; ///< whether carbon is golden where there are several chains, too
+};
+
+/// "sticks", or "(HEM)=sticks" for some of the atoms; "sticks,golden" with golden carbon.
+/// @param[in] others  further words that an option takes, for the hint of an error
+/// @throws Error(ErrorKind::Usage) if it is neither
+ShowRule parseShow(const std::string& text, const std::vector<std::string>& others = {});
+
+/// Atoms that are shown.
+struct ShownAtoms {
+    BallSet atoms; ///< with labels and names
+    ShowRule rule;
+    std::shared_ptr<const FileBonds> bonds{}; ///< that their file gives; null: none
+    bool byChain = false;                     ///< whether carbon has the colour of its chain
+};
+
+/// About what the model of these atoms takes while it is drawn [byte].
+double bytesOfModel(const std::vector<ShownAtoms>& shown);
+
+/// Carbon is golden or has the colour of its chain, other elements have their colours (CPK), tubes
+/// that of their chain.
+/// @throws Error(ErrorKind::Input) if a rule has nothing to show, as a tube without a backbone
+AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progress);
+
+/// Adds the parts of a mesh with colours, and a legend of their names. Where atoms are shown the
+/// parts let light through, so that a ligand is seen in its pocket.
+void addBodies(const Mesh& bodies, AtomModel& model);
+
+} // namespace molsurf

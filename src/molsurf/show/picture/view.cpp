@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "molsurf/show/picture/view.h"
+
+#include "molsurf/show/io/part_ranges.h"
+#include "molsurf/show/picture/atom_model.h"
+
+#include <openvdb/math/Mat3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace molsurf
+{
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+namespace
+{
+
+constexpr double border = 1.04; // width of the picture over that of the molecule
+
+constexpr int manyDirections = 400;
+
+/// The vertices of a part that lie farthest out in some directions.
+std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part, int directions)
+{
+    std::vector<Vec3d> out;
+    for (int k = 0; k < directions; ++k) { // by a golden spiral
+        const double z = 1.0 - (2.0 * k + 1.0) / directions, r = std::sqrt(1.0 - z * z);
+        const double angle = 2.0 * M_PI * 0.6180339887498949 * k;
+        const Vec3f way(float(r * std::cos(angle)), float(r * std::sin(angle)), float(z));
+        std::size_t farthest = part.firstVertex;
+        for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
+            if (mesh.positions[v].dot(way) > mesh.positions[farthest].dot(way)) farthest = v;
+        }
+        out.push_back(Vec3d(mesh.positions[farthest]));
+    }
+    return out;
+}
+
+/// Adds the outermost points of copies.
+void addSpan(const Mesh& mesh, const std::vector<MeshInstance>& instances, int directions,
+             std::vector<Vec3d>& out)
+{
+    std::vector<std::vector<Vec3d>> outer;
+    for (const PartRange& part : partRanges(mesh, ""))
+        outer.push_back(outermost(mesh, part, directions));
+    for (const MeshInstance& instance : instances) {
+        for (const Vec3d& x : outer[instance.part]) out.push_back(instance.placed(x));
+    }
+}
+
+/// Points that span what is shown: the vertices, or of copies the outermost ones, and atoms.
+class Span
+{
+public:
+    Span(const Mesh& mesh, const DrawOptions& options)
+        : vertices_(options.instances.empty() ? &mesh.positions : nullptr)
+    {
+        if (!vertices_) addSpan(mesh, options.instances, manyDirections, others_);
+        const AtomModel* model = options.model.get();
+        if (!model) return;
+        const int directions = // fewer of many atoms, for some 200000 points in all
+            std::clamp(int(200000 / model->instances.size()), 20, manyDirections);
+        addSpan(model->mesh, model->instances, directions, others_);
+        for (const Vec3f& p : model->bodies.positions) others_.emplace_back(p);
+    }
+
+    template<typename F>
+    void forEach(const F& f) const
+    {
+        if (vertices_)
+            for (const Vec3f& p : *vertices_) f(Vec3d(p));
+        for (const Vec3d& p : others_) f(p);
+    }
+
+    std::vector<Vec3d> points() const
+    {
+        std::vector<Vec3d> out;
+        forEach([&](const Vec3d& p) { out.push_back(p); });
+        return out;
+    }
+
+private:
+    const std::vector<Vec3f>* vertices_;
+    std::vector<Vec3d> others_;
+};
+
+/// Principal axes of points, those of their covariance, the longest first. The largest component of
+/// each is positive, lest signs be left to chance.
+std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points)
+{
+    Vec3d mean(0.0);
+    for (const Vec3d& p : points) mean += p;
+    mean /= double(points.size());
+    openvdb::Mat3d covariance = openvdb::Mat3d::zero();
+    for (const Vec3d& p : points) {
+        const Vec3d d = p - mean;
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) covariance(i, j) += d[i] * d[j];
+        }
+    }
+    openvdb::Mat3d vectors;
+    Vec3d values;
+    std::array<Vec3d, 3> axes = {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
+    if (!openvdb::math::diagonalizeSymmetricMatrix(covariance, vectors, values)) return axes;
+    std::array<int, 3> order = {0, 1, 2};
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return values[a] > values[b]; });
+    for (std::size_t k = 0; k < 3; ++k) {
+        Vec3d axis;
+        for (int i = 0; i < 3; ++i) axis[i] = vectors(i, order[k]);
+        axis.normalize();
+        const Vec3d size(std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2]));
+        const int largest = size[0] >= size[1] && size[0] >= size[2] ? 0
+                            : size[1] >= size[2]                     ? 1
+                                                                     : 2;
+        axes[k] = axis[largest] < 0.0 ? -axis : axis;
+    }
+    return axes;
+}
+
+/// The part of a point that is level.
+Vec3d level(const Vec3d& x, const Vec3d& up)
+{
+    return x - x.dot(up) * up;
+}
+
+/// The direction to the right of a view with something upright.
+/// @param[in] toEye  zero: the longest level extent lies across
+Vec3d rightOf(std::vector<Vec3d> points, const Vec3d& up, const Vec3d& toEye)
+{
+    constexpr double least = 1e-3; // sine of the angle between the two
+    if (toEye.lengthSqr() > 0.0 && up.cross(toEye.unit()).length() > least)
+        return up.cross(toEye).unit();
+    for (Vec3d& x : points) x = level(x, up);
+    const Vec3d across = level(principalAxes(points)[0], up);
+    return across.length() > least ? across.unit() : level(Vec3d(up[1], up[2], up[0]), up).unit();
+}
+
+/// viewAxes() of points.
+std::array<Vec3d, 3> axesOf(const std::vector<Vec3d>& points, const DrawOptions& options)
+{
+    Vec3d right, toEye;
+    if (options.upright.lengthSqr() > 0.0) {
+        const Vec3d upward = options.upright.unit();
+        right = rightOf(points, upward, options.toEye);
+        toEye = right.cross(upward);
+    } else if (options.toEye.lengthSqr() > 0.0) {
+        toEye = options.toEye.unit();
+        right = options.up.cross(toEye).unit();
+    } else {
+        const auto axes = principalAxes(points);
+        right = axes[0];
+        toEye = axes[0].cross(axes[1]);
+    }
+    const Vec3d up = toEye.cross(right);
+    const double angle = options.turn * M_PI / 180.0;
+    return {std::cos(angle) * right - std::sin(angle) * toEye, up,
+            std::cos(angle) * toEye + std::sin(angle) * right};
+}
+
+/// The part of space that shows an extent [Å].
+PictureFrame frameOf(const Vec3d& center, double across, double upward)
+{
+    return {center, border * across, border * across * std::clamp(upward / across, 0.2, 4.0)};
+}
+
+} // namespace
+
+void keepView(std::size_t count, const std::function<std::vector<Vec3d>(std::size_t)>& pointsOf,
+              double margin, DrawOptions& options)
+{
+    const std::array<Vec3d, 3> axes = axesOf(pointsOf(0), options);
+    openvdb::BBoxd box;
+    for (std::size_t i = 0; i < count; ++i)
+        for (const Vec3d& x : pointsOf(i))
+            box.expand(Vec3d(x.dot(axes[0]), x.dot(axes[1]), x.dot(axes[2])));
+    const Vec3d mid = box.getCenter(), extent = box.extents() + Vec3d(2.0 * margin);
+    options.up = axes[1];
+    options.toEye = axes[2];
+    options.upright = Vec3d(0.0);
+    options.turn = 0.0;
+    options.frame =
+        frameOf(mid[0] * axes[0] + mid[1] * axes[1] + mid[2] * axes[2], extent[0], extent[1]);
+}
+
+View chooseView(const Mesh& mesh, const DrawOptions& options)
+{
+    View view;
+    const Span span(mesh, options);
+    const std::array<Vec3d, 3> axes =
+        axesOf(options.about.empty() ? span.points() : options.about, options);
+    view.right = axes[0];
+    view.up = axes[1];
+    view.toEye = axes[2];
+
+    // A turn must not change the scale, so the extent across is that of all turns.
+    Vec3d low(std::numeric_limits<double>::max()), high(-low);
+    double reach = 0.0;
+    span.forEach([&](const Vec3d& x) {
+        const Vec3d seen(x.dot(view.right), x.dot(view.up), x.dot(view.toEye));
+        low = openvdb::math::minComponent(low, seen);
+        high = openvdb::math::maxComponent(high, seen);
+    });
+    std::vector<Vec3d> places; // of notes, which are in the frame but move no cut
+    for (const PictureNote& note : options.notes) {
+        places.push_back(note.from);
+        if (note.to) places.push_back(*note.to);
+    }
+    for (const Vec3d& x : places) {
+        const Vec3d seen(x.dot(view.right), x.dot(view.up), 0.0);
+        for (int a = 0; a < 2; ++a) {
+            low[a] = std::min(low[a], seen[a]);
+            high[a] = std::max(high[a], seen[a]);
+        }
+    }
+    const Vec3d mid = 0.5 * (low + high), extent = high - low;
+    view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
+    if (options.turn != 0.0 || options.turnable) {
+        const auto turnWith = [&](const Vec3d& p) {
+            const Vec3d d = p - view.center;
+            reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
+        };
+        span.forEach(turnWith);
+        for (const Vec3d& x : places) turnWith(x);
+    }
+    const double across = std::max(extent[0], 2.0 * reach), upward = extent[1];
+    PictureFrame frame = frameOf(view.center, across, upward);
+    view.low = -0.5 * extent[2];
+    view.far = 0.5 * extent[2];
+    if (options.frame) {
+        frame = *options.frame;
+        const double behind = (frame.center - view.center).dot(view.toEye);
+        view.low -= behind;
+        view.far -= behind;
+        view.center = frame.center;
+    }
+    view.width = options.width;
+    view.pixel = frame.width / view.width;
+    view.height = std::max(1, int(std::lround(view.width * frame.height / frame.width)));
+    return view;
+}
+
+std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
+{
+    return axesOf(options.about.empty() ? Span(mesh, options).points() : options.about, options);
+}
+
+} // namespace molsurf
