@@ -95,6 +95,8 @@ class Surface:
     @property
     def pore(self) -> dict[str, NDArray[Any]]: ...
     @property
+    def tunnels(self) -> dict[str, NDArray[Any]]: ...
+    @property
     def area(self) -> float: ...
     @property
     def volume(self) -> float: ...
@@ -104,7 +106,7 @@ class Surface:
     def kind(self) -> str: ...
     @property
     def report(self) -> dict[str, Any]: ...
-    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets", "pore"],
+    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets", "pore", "tunnels"],
               level: Literal["atom", "residue", "chain"] = "residue") -> dict[str, NDArray[Any]]: ...
     def forces(self, gamma: float | None = None, pressure: float | None = None, *,
                progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> NDArray[np.float64]: ...
@@ -191,6 +193,8 @@ class Molecule:
         outward: float = ...,
         pocket_at: str = ...,
         pore: str = ...,
+        tunnels_from: str = ...,
+        tunnel_probe: float = 0.9,
         pockets: bool = False,
         probe_in: float = 1.4,
         probe_out: float = 4.0,
@@ -238,6 +242,7 @@ def surface(positions: ArrayLike, radii: ArrayLike, *,
     surface_of: str | float | Sequence[str | float] = ...,
     interfaces: bool = False,
     color: str = ...,
+    tunnel_probe: float = 0.9,
     pockets: bool = False,
     probe_in: float = 1.4,
     probe_out: float = 4.0,
@@ -303,6 +308,8 @@ def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
     outward: float = ...,
     pocket_at: str = ...,
     pore: str = ...,
+    tunnels_from: str = ...,
+    tunnel_probe: float = 0.9,
     pockets: bool = False,
     probe_in: float = 1.4,
     probe_out: float = 4.0,

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../../.."
 build=${1:-$(mktemp -d)}
 without=()
-for package in nlohmann_json Freetype PNG ZLIB embree GTest; do
+for package in nlohmann_json Freetype PNG embree GTest; do
   without+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 cmake -S . -B "$build" -G Ninja -DMOLSURF_ONLY=kernel -DMOLSURF_OPENVDB=system "${without[@]}"
