@@ -13,6 +13,7 @@
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
 #     wheel       scripts/wheel.sh: the Python module, its wheel and its tests
 #     package     scripts/package.sh: Debian's packages, built and tried in bare systems
+#     kernel      the kernel configured and built alone, with OpenVDB and TBB, and its example run
 #     examples    tests/examples: the additions of CONTRIBUTING.md, built and used
 #     site        scripts/docs.sh: the pages as a site
 #     slurm       scripts/workflow/test_slurm.sh: the workflow of Snakemake on a Slurm of this machine
@@ -58,6 +59,7 @@ figures() {
 }
 wheel() { scripts/wheel.sh; }
 package() { scripts/package.sh; }
+kernel() { tests/package/kernel/standalone.sh; }
 examples() { tests/examples/check_examples.py --build build-examples; }
 site() { scripts/docs.sh; }
 slurm() {
@@ -69,12 +71,12 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
     --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
-    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | guides | figures | wheel | package | examples | site | slurm) steps+=("$1") ;;
+    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | guides | figures | wheel | package | kernel | examples | site | slurm) steps+=("$1") ;;
     *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
   esac
   shift
 done
-[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls guides figures wheel package examples site slurm)
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls guides figures wheel package kernel examples site slurm)
 
 scripts/install_deps.sh --test --check clang libclang-rt-dev dpkg-dev
 mkdir -p build-nightly
@@ -83,7 +85,7 @@ for step in "${steps[@]}"; do
   echo "== $step"
   began=$SECONDS verdict=passed
   "$step" < /dev/null > "build-nightly/$step.log" 2>&1 || { verdict=FAILED status=1; }
-  last=$(grep -E '^(.*tests passed.*|.* faults.*|most: .*|.* killed.*|Made in .*|.* passed.* in .*|.*ninja: no work.*)$' "build-nightly/$step.log" | tail -n 1 || true)
+  last=$(grep -E '^(.*tests passed.*|.* faults.*|most: .*|.* killed.*|Made in .*|.* passed.* in .*|.* s of CPU.*|.*ninja: no work.*)$' "build-nightly/$step.log" | tail -n 1 || true)
   table+=("$(printf '%-10s %-7s %3d:%02d  %s' "$step" "$verdict" $(((SECONDS - began) / 60)) $(((SECONDS - began) % 60)) \
     "${last:-$(tail -n 1 "build-nightly/$step.log")}")")
   echo "${table[-1]}"

@@ -276,12 +276,8 @@ OptionGroup outputOptions()
     Option folder{"folder", 'O',  "DIR", "where the files go, with the names of the structures",
                   "",       Batch};
     folder.set = [](CommandLine& call, const Values& values) { call.folder = values.back(); };
-    Option formats{"formats",
-                   0,
-                   "LIST",
-                   "files to write, by commas, of\n" + inLines(formatsOf(Batch)),
-                   CommandLine().formats,
-                   Batch};
+    const std::string preset = CommandLine().formats, several = "files to write, by commas, of\n";
+    Option formats{"formats", 0, "LIST", several + inLines(formatsOf(Batch)), preset, Batch};
     formats.set = [](CommandLine& call, const Values& values) { call.formats = values.back(); };
     Option shown = either("color",
                           "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
