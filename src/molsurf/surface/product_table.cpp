@@ -42,9 +42,10 @@ void needGroups(const BallSet& atoms, const Options&)
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
 }
 
-constexpr char ofPore[] = "`pore`", ofTunnels[] = "`tunnelsFrom`";
+constexpr char ofPore[] = "`pore`", ofTunnels[] = "`tunnelsFrom`", ofMeasures[] = "`measures`";
 
-/// Checks that a way through the void is one of the whole.
+/// Checks that the balls and their mesh are the whole, which ways through the void and measures are
+/// of.
 template<const auto& option>
 void needOnePlace(const BallSet& atoms, const Options&)
 {
@@ -239,8 +240,8 @@ const std::vector<ProductRow>& productTable()
          }},
         {"`fields` depth", InBricks, [](auto&, auto& o) { return hasField(o.fields, "depth"); },
          nullptr, makeDepths},
-        {"`measures`", always, [](auto&, auto& o) { return !o.measures.empty(); }, nullptr,
-         makeMeasures},
+        {ofMeasures, always, [](auto&, auto& o) { return !o.measures.empty(); },
+         needOnePlace<ofMeasures>, makeMeasures},
         {"`halfFloats`", always, [](auto&, auto& o) { return o.halfFloats; }, nullptr,
          [](MadeRun& run) { saveAsHalf(run.result.grids()); }},
         // The stages make the others.

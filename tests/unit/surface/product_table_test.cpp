@@ -70,6 +70,23 @@ TEST(ProductTable, AWayRefusesWhatItCannotGive)
     EXPECT_EQ(missingIn(InBricks, options), "`measures` gyration_radius");
 }
 
+// The mesh of a unit or of prototypes is not that of the whole.
+TEST(ProductTable, MeasuresAreOfAWhole)
+{
+    BallSet atoms;
+    atoms.balls = test::randomBalls(9, 5.0, {20, 0, 0}, 1);
+    atoms.placement.instances = {{Motion::identity(), 0, "1"}, {Motion::identity(), 0, "2"}};
+    SurfaceOptions options;
+    options.measures = {"sphericity"};
+    try {
+        checkProducts(atoms, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(),
+                     "`measures`: expected one surface, and not `instances` or `bySymmetry`");
+    }
+}
+
 // A number that nobody asked for is not there, and names are those of rows.
 TEST(ProductTable, MeasuresAreAskedForByName)
 {
