@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 namespace molsurf::tool
@@ -95,14 +96,19 @@ namespace
 /// The call without what pictures do not show, and without atoms that the first structure has.
 CommandLine panelCall(CommandLine call)
 {
-    SurfaceOptions& options = call.options;
-    options.pockets = options.ballAreas = options.contacts = options.interfaces = false;
-    options.curvatureTotals = options.energy = options.closedForm = false;
-    options.areasOf.reset();
-    auto& fields = options.fields; // those of vertices are of the mesh
-    fields.erase(std::remove_if(fields.begin(), fields.end(),
-                                [](const auto& field) { return !findCurvatureField(field); }),
-                 fields.end());
+    const Products asked = call.options;
+    Products shown;
+    shown.energy = shown.closedForm = false;
+    shown.meshLabels = asked.meshLabels;
+    shown.meshEdge = asked.meshEdge;
+    shown.meshError = asked.meshError;
+    shown.color = asked.color;
+    shown.pocket = asked.pocket; // colours by pocket
+    shown.split = asked.split;
+    shown.surfaceOf = asked.surfaceOf;
+    std::copy_if(asked.fields.begin(), asked.fields.end(), std::back_inserter(shown.fields),
+                 [](const auto& field) { return findCurvatureField(field); }); // of vertices
+    static_cast<Products&>(call.options) = shown;
     call.atoms.pore.clear();
     call.atoms.tunnelsFrom.clear();
     call.atoms.pocketAt.clear();
