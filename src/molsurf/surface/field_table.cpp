@@ -36,14 +36,6 @@ namespace
 
 using openvdb::GridBase;
 
-/// A row of what the stages of a run leave.
-FieldRow fromRun(const char* name, GridBase::Ptr (*make)(SurfaceRun& run))
-{
-    FieldRow row{name, 1, BySymmetry | InClosedForm};
-    row.ofRun = make;
-    return row;
-}
-
 /// A row of what the balls have.
 FieldRow fromBalls(const char* name, int values, GridBase::Ptr (*make)(FieldSource& from))
 {
@@ -57,15 +49,6 @@ GridBase::Ptr labelGrid(FieldSource& from, const char* name, const Labels& label
     const Labels labels = labelsOf(from.owners(false), labelOf);
     return gridOf<openvdb::Int32Grid>(from.voxels(false), name, -1,
                                       [&](std::size_t i) { return labels[i]; });
-}
-
-FieldRow densityField()
-{
-    FieldRow row = fromRun("density", [](SurfaceRun& run) -> GridBase::Ptr {
-        return densityGrid(*run.result().surface);
-    });
-    row.missingIn |= InBricks;
-    return row;
 }
 
 FieldRow atomField()
@@ -174,16 +157,14 @@ FieldRow valueField()
 const std::vector<FieldRow>& fieldTable()
 {
     static const std::vector<FieldRow> all = [] {
-        std::vector<FieldRow> rows = {
-            fromRun("sas", [](SurfaceRun& run) -> GridBase::Ptr { return run.sasGrid(); }),
-            fromRun("spline", [](SurfaceRun& run) -> GridBase::Ptr {
-                return splineGrid(run.currentSpline());
-            })};
+        std::vector<FieldRow> rows = {{"sas", 1, BySymmetry | InClosedForm},
+                                      {"spline", 1, BySymmetry | InClosedForm}};
         for (const CurvatureField& field : curvatureFields()) {
             rows.push_back({field.name, field.components, InClosedForm});
             rows.back().atVertices = true;
         }
-        for (auto* more : {densityField, atomField, chainField, groupField, colorField, valueField})
+        rows.push_back({"density", 1, BySymmetry | InClosedForm | InBricks});
+        for (auto* more : {atomField, chainField, groupField, colorField, valueField})
             rows.push_back(more());
         for (const char* name : {"pocket_id", "pocket_depth", "pocket_room"}) { // by addPockets()
             rows.push_back({name, 1, BySymmetry | InClosedForm | InBricks});
@@ -213,17 +194,6 @@ std::vector<std::string> fieldNames()
     for (const FieldRow& row : fieldTable())
         if (!row.needs && !row.inTables) names.push_back(row.name);
     return names;
-}
-
-void addFieldsOfRun(const std::vector<std::string>& fields, SurfaceRun& run)
-{
-    const openvdb::GridPtrVec curvatures = run.curvatureFields();
-    for (const FieldRow& row : fieldTable()) {
-        if (!hasField(fields, row.name)) continue;
-        if (row.ofRun) run.result().fields.push_back(row.ofRun(run));
-        for (const auto& grid : curvatures)
-            if (grid->getName() == row.name) run.result().fields.push_back(grid);
-    }
 }
 
 } // namespace molsurf

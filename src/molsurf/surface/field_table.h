@@ -17,8 +17,6 @@
 namespace molsurf
 {
 
-class SurfaceRun;
-
 /// Sources of the grids of balls. A source that several of them need is computed once, when the
 /// first asks for it.
 struct FieldSource {
@@ -45,8 +43,8 @@ private:
     Voxels& of(bool colored);
 };
 
-/// A grid beside `surface`. Of `ofRun` and `ofBalls` one makes it, or curvatureGrids() does;
-/// without any the caller of makeSurface() does.
+/// A grid beside `surface`. `ofBalls` makes it; without that SurfaceRun::fields(), a product or the
+/// caller of makeSurface() does.
 struct FieldRow {
     std::string name;       ///< of the command line and of the grid
     int values = 1;         ///< numbers of a voxel
@@ -59,7 +57,6 @@ struct FieldRow {
     bool atVertices = false;  ///< whether meshes have it, too
     bool inTables = false;    ///< whether tables of areas have it, too
     bool ofColors = false;    ///< whether it is of what SurfaceOptions::color shows
-    openvdb::GridBase::Ptr (*ofRun)(SurfaceRun& run) = nullptr;
     openvdb::GridBase::Ptr (*ofBalls)(FieldSource& from) = nullptr; ///< null: it has nothing
 };
 
@@ -71,8 +68,5 @@ const FieldRow* findField(const std::string& name);
 
 /// The names of those that need nothing else to be asked for, and no work beside the surface.
 std::vector<std::string> fieldNames();
-
-/// Adds the fields that the options ask for and that the stages of a run leave to its surface.
-void addFieldsOfRun(const std::vector<std::string>& fields, SurfaceRun& run);
 
 } // namespace molsurf

@@ -44,7 +44,7 @@ MolecularSurface runAsTheyAre(const BallSet& atoms, const SurfaceOptions& option
         areas = areasOnMesh(atoms, run.result().mesh, run.result().report.surface.area,
                             run.labelReach(), progress);
     run.finishMesh();
-    addFieldsOfRun(options.fields, run);
+    run.result().fields = run.fields();
     openvdb::GridPtrVec shown = curvatureShown(options, run, progress);
     run.freeFields();
     MolecularSurface result = run.finish();
@@ -66,11 +66,8 @@ MolecularSurface runWhole(const BallSet& atoms, const SurfaceOptions& options, P
     MolecularSurface made = runAsTheyAre(ordered, options, progress);
     if (dependsOnPose(options)) estimatePoseError(ordered, options, progress, made.report);
     const std::vector<std::int32_t> order = spatialOrder(atoms.balls);
-    for (std::vector<double>* values : {&made.ballAreas, &made.ballValues}) {
-        std::vector<double> back(values->size());
-        for (std::size_t i = 0; i < values->size(); ++i) back[std::size_t(order[i])] = (*values)[i];
-        *values = std::move(back);
-    }
+    for (std::vector<double>* values : {&made.ballAreas, &made.ballValues})
+        *values = inCallersOrder(*values, order);
     return made;
 }
 
@@ -96,7 +93,8 @@ MolecularSurface runWithoutGrid(const BallSet& atoms, const SurfaceOptions& opti
 Products measuresOfWhole()
 {
     Products wanted;
-    wanted.energy = wanted.meshLabels = false;
+    static_cast<KernelProducts&>(wanted) = measuresAlone();
+    wanted.meshLabels = false;
     return wanted;
 }
 

@@ -112,4 +112,12 @@ std::vector<std::int32_t> spatialOrder(const std::vector<Ball>& balls)
     return out;
 }
 
+std::vector<double> inCallersOrder(const std::vector<double>& values,
+                                   const std::vector<std::int32_t>& order)
+{
+    std::vector<double> out(values.size());
+    for (std::size_t i = 0; i < out.size(); ++i) out[std::size_t(order[i])] = values[i];
+    return out;
+}
+
 } // namespace molsurf

@@ -62,4 +62,10 @@ std::vector<PlacedBall> placedBalls(const std::vector<Ball>& balls, double probe
 /// (but for equal balls): along a Z-order curve, so that neighbours are near each other.
 std::vector<std::int32_t> spatialOrder(const std::vector<Ball>& balls);
 
+/// Values of balls in spatial order, put into that of the caller.
+/// @param[in] values  one a ball, or none
+/// @param[in] order   of spatialOrder()
+std::vector<double> inCallersOrder(const std::vector<double>& values,
+                                   const std::vector<std::int32_t>& order);
+
 } // namespace molsurf

@@ -3,7 +3,6 @@
 #include "molsurf/kernel/balls/placed_ball.h"
 #include "molsurf/kernel/core/memory.h"
 #include "molsurf/kernel/pipeline/check_balls.h"
-#include "molsurf/kernel/pipeline/derived_grids.h"
 #include "molsurf/kernel/pipeline/pose_error.h"
 #include "molsurf/kernel/pipeline/surface_run.h"
 
@@ -40,19 +39,11 @@ LevelSetSurface makeLevelSet(const BallModel& model, const SurfaceSpec& spec,
     SurfaceRun run(balls, {spec, products}, Scope(), progress);
     run.toMeasures();
     run.finishMesh();
-    openvdb::GridPtrVec& fields = run.result().fields = run.curvatureFields();
-    const auto add = [&](const char* name, auto&& grid) {
-        if (hasField(products.fields, name)) fields.push_back(grid());
-    };
-    add("sas", [&] { return run.sasGrid(); });
-    add("spline", [&] { return splineGrid(run.currentSpline()); });
-    add("density", [&] { return densityGrid(*run.result().surface); });
+    run.result().fields = run.fields();
     run.freeFields();
     LevelSetSurface made = run.finish();
     if (dependsOnPose(spec)) estimatePoseError(balls, spec, progress, made.report);
-    std::vector<double> areas(made.ballAreas.size());
-    for (std::size_t i = 0; i < areas.size(); ++i) areas[std::size_t(order[i])] = made.ballAreas[i];
-    made.ballAreas = std::move(areas);
+    made.ballAreas = inCallersOrder(made.ballAreas, order);
     return made;
 }
 

@@ -552,9 +552,21 @@ openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
     return grid;
 }
 
-openvdb::GridPtrVec SurfaceRun::curvatureFields() const
+openvdb::GridPtrVec SurfaceRun::fields()
 {
-    return curvatureGrids(*result_.surface, spline_, options_.fields, progress_);
+    openvdb::GridPtrVec out;
+    const auto add = [&](const char* name, const auto& make) {
+        if (hasField(options_.fields, name)) out.push_back(make());
+    };
+    add("sas", [&] { return sasGrid(); });
+    add("spline", [&] { return splineGrid(spline_); });
+    const openvdb::GridPtrVec curvatures =
+        curvatureGrids(*result_.surface, spline_, options_.fields, progress_);
+    for (const CurvatureField& field : curvatureFields())
+        for (const auto& grid : curvatures)
+            if (grid->getName() == field.name) out.push_back(grid);
+    add("density", [&] { return densityGrid(*result_.surface); });
+    return out;
 }
 
 void SurfaceRun::freeFields()

@@ -143,8 +143,9 @@ public:
     /// The stages of the mesh behind toMeasures(): remesh(), curvatures(), integrateCurvature().
     void finishMesh();
 
-    /// The grids of curvatures among the fields that the options ask for.
-    openvdb::GridPtrVec curvatureFields() const;
+    /// Makes the grids that the options ask for and that the stages leave: `sas`, `spline`, those
+    /// of curvatures and `density`, in this order.
+    openvdb::GridPtrVec fields();
 
     /// Makes the grid `sas`: the evolved level set, or that of the solvent-accessible surface.
     openvdb::FloatGrid::Ptr sasGrid();

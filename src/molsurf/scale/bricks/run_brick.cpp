@@ -172,7 +172,7 @@ Brick runBrick(const BallSet& atoms, const SurfaceOptions& options, const Scope&
     run.dropSpecks();
     run.curvatures();
     turnOffOutside(*result.surface, box);
-    addFieldsOfRun(options.fields, run);
+    result.fields = run.fields();
     run.freeFields();
 
     Brick brick;
