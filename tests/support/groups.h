@@ -32,24 +32,9 @@ inline Operator turn(const openvdb::Vec3d& axis, double angle,
     return op;
 }
 
-inline openvdb::Vec3d applied(const Operator& op, const openvdb::Vec3d& x)
-{
-    openvdb::Vec3d out = op.translation;
-    for (int i = 0; i < 3; ++i) {
-        const auto& row = op.rotation[std::size_t(i)];
-        out[i] += row[0] * x[0] + row[1] * x[1] + row[2] * x[2];
-    }
-    return out;
-}
-
 inline Operator inverseOf(const Operator& op)
 {
-    Operator out{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) out.rotation[i][j] = op.rotation[j][i];
-    }
-    out.translation = openvdb::Vec3d(0.0) - applied(out, op.translation);
-    return out;
+    return {op.inverse(), ""};
 }
 
 /// All products of the generators, the identity first.
@@ -59,7 +44,7 @@ inline std::vector<Operator> groupOf(const std::vector<Operator>& generators)
     auto isNew = [&](const Operator& op) {
         const openvdb::Vec3d x(1.0, 2.0, 4.0); // in general position
         return std::none_of(all.begin(), all.end(), [&](const Operator& other) {
-            return (applied(op, x) - applied(other, x)).length() < 1e-6;
+            return (op.placed(x) - other.placed(x)).length() < 1e-6;
         });
     };
     for (std::size_t i = 0; i < all.size() && all.size() < 100; ++i) {

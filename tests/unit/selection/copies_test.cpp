@@ -73,7 +73,7 @@ TEST(Copies, AreThoseOfTheFirstOperatorWhereverItIs)
     ASSERT_EQ(five.placement.copies, 5u);
     // In the frame of copy 1 it is the ring of the copy that the identity makes.
     std::vector<Ball> balls = five.balls;
-    for (Ball& ball : balls) ball.center = applied(home, ball.center);
+    for (Ball& ball : balls) ball.center = home.placed(ball.center);
     expectRing(balls, 5, {0, 1, golden});
 }
 

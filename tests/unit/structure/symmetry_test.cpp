@@ -40,8 +40,8 @@ void expectImages(const Assembly& assembly, const Symmetry& symmetry, double tol
         EXPECT_NEAR(axis.direction.length(), 1.0, 1e-9);
         for (const auto& images : axis.images) {
             for (std::size_t i = 0; i < ops.size(); ++i) {
-                const Vec3d from = applied(ops[i], atom) - symmetry.centre;
-                const Vec3d to = applied(ops[images[i]], atom) - symmetry.centre;
+                const Vec3d from = ops[i].placed(atom) - symmetry.centre;
+                const Vec3d to = ops[images[i]].placed(atom) - symmetry.centre;
                 EXPECT_NEAR(from.dot(axis.direction), to.dot(axis.direction), tolerance);
                 EXPECT_NEAR(from.cross(axis.direction).length(), to.cross(axis.direction).length(),
                             tolerance);
@@ -123,7 +123,7 @@ TEST(Symmetry, OfOperatorsAsTheyCome)
         for (int i = 0; i < 3; ++i) op.translation[i] += noise(random);
     }
     const Assembly assembly = assemblyOf(operators);
-    const Symmetry symmetry = findSymmetry(assembly, applied(inverseOf(point), atom));
+    const Symmetry symmetry = findSymmetry(assembly, inverseOf(point).placed(atom));
     EXPECT_EQ(symmetry.pointGroup, "I");
     EXPECT_EQ(foldsOf(symmetry), folds(6, 0, 10, 15));
     EXPECT_LT((symmetry.centre - frame.translation).length(), 0.1);

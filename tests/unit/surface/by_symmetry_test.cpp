@@ -100,7 +100,7 @@ TEST_P(BySymmetry, IsTheWhole)
         SCOPED_TRACE(c.name);
         const Vec3d centre(11.0, -7.0, 23.0);
         const Operator there = turn({1, 2, 3}, 0.7, centre);
-        Structure s = blob(applied(there, c.away * c.direction.unit()), 6.5, 200, 7);
+        Structure s = blob(there.placed(c.away * c.direction.unit()), 6.5, 200, 7);
         s.assemblies = {assemblyOf(elsewhere(c.operators, centre))};
         const BallSet unit = selectBalls(s, assembly(true, options));
         const BallSet whole = selectBalls(s, assembly(false, options));
@@ -214,7 +214,7 @@ TEST(UnitTopology, IsThatOfTheWholeOrNotKnown)
         for (int k = 0; k < molecule.order; ++k) {
             operators.push_back(turn({0, 0, 1}, 2.0 * M_PI * k / molecule.order));
             operators.back().translation =
-                molecule.centre - applied(operators.back(), molecule.centre);
+                molecule.centre - operators.back().placed(molecule.centre);
         }
         s.assemblies = {assemblyOf(operators)};
         SurfaceOptions options;
@@ -298,12 +298,10 @@ TEST(SymmetricUnit, MotionsAreAGroup)
     const Vec3d x(140.0, 80.0, 20.0);
     for (std::size_t k = 0; k < 60; ++k) {
         const Operator& m = group.motions[k];
-        EXPECT_NEAR((applied(m, group.symmetry.centre) - group.symmetry.centre).length(), 0.0,
-                    1e-9);
+        EXPECT_NEAR((m.placed(group.symmetry.centre) - group.symmetry.centre).length(), 0.0, 1e-9);
         for (std::size_t l = 0; l < 60; ++l) {
-            const Vec3d both = applied(m, applied(group.motions[l], x));
-            EXPECT_NEAR((both - applied(group.motions[group.product[k][l]], x)).length(), 0.0,
-                        1e-9);
+            const Vec3d both = m.placed(group.motions[l].placed(x));
+            EXPECT_NEAR((both - group.motions[group.product[k][l]].placed(x)).length(), 0.0, 1e-9);
         }
         EXPECT_EQ(group.product[k][group.inverse[k]], 0u);
     }
@@ -486,7 +484,7 @@ TEST(SymmetricUnit, BordersMeet)
     for (const MolecularSurface::SharedVertex& v : a.shared) {
         const Instance& m = unit.placement.instances[std::size_t(v.motion)];
         const Operator op{m.rotation, m.translation, {}};
-        const Vec3d there = applied(op, Vec3d(a.mesh.positions[v.other]));
+        const Vec3d there = op.placed(Vec3d(a.mesh.positions[v.other]));
         EXPECT_NEAR((there - Vec3d(a.mesh.positions[v.vertex])).length(), 0.0, 1e-4);
     }
     // Apart, every unit is a part of its own.

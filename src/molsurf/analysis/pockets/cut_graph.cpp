@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/analysis/pockets/cut_graph.h"
 
+#include "molsurf/kernel/core/bracketed_root.h"
 #include "molsurf/kernel/core/parallel.h"
 
 #include <algorithm>
@@ -29,31 +30,17 @@ bool isPlaceBelow(const Vec3d& place, double room, const VoidField& space, const
     return below(place, room).value > 0.0;
 }
 
-/// Where a line from a place below the cut to one above it crosses it: by false position, with half
-/// of a value that stays (the Illinois method).
-VoidPoint crossingOf(VoidPoint in, double inValue, VoidPoint out, double outValue,
+/// Where a line from a place below the cut to one above it crosses it.
+VoidPoint crossingOf(const VoidPoint& in, double inValue, const VoidPoint& out, double outValue,
                      const BelowCut& below)
 {
-    constexpr int steps = 8;
-    constexpr double exact = 1e-4; // [Å]
-    VoidPoint at = in;
-    for (int k = 0; k < steps; ++k) {
-        const double t = inValue / (inValue - outValue);
-        at = {in.place + (out.place - in.place) * t,
-              in.clearance + (out.clearance - in.clearance) * t};
-        const double value = below(at.place, at.clearance).value;
-        if (std::abs(value) < exact) break;
-        if (value > 0.0) {
-            in = at;
-            inValue = value;
-            outValue *= 0.5;
-        } else {
-            out = at;
-            outValue = value;
-            inValue *= 0.5;
-        }
-    }
-    return at;
+    constexpr ZeroAccuracy accuracy{8, 0.0, 1e-4}; // [Å]
+    const auto at = [&](double t) {
+        return VoidPoint{in.place + (out.place - in.place) * t,
+                         in.clearance + (out.clearance - in.clearance) * t};
+    };
+    return at(zeroBetween(-inValue, -outValue, accuracy,
+                          [&](double t) { return -below(at(t).place, at(t).clearance).value; }));
 }
 
 /// Finds where a way along an edge from a place below the cut comes to it.
