@@ -24,6 +24,7 @@
 #include "molsurf/show/io/write_report.h"
 #include "molsurf/show/io/write_structure.h"
 #include "molsurf/show/io/write_table.h"
+#include "molsurf/show/io/write_tunnels.h"
 #include "molsurf/show/io/write_usda.h"
 #include "molsurf/show/io/write_usda_instances.h"
 #include "molsurf/show/io/write_vdb.h"

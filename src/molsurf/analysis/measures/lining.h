@@ -5,6 +5,7 @@
 /// The atoms that line pockets, pores and tunnels.
 
 #include "molsurf/atoms.h"
+#include "molsurf/report.h"
 
 #include <cstddef>
 #include <limits>
@@ -30,5 +31,8 @@ Lining liningOf(const BallSet& atoms, const std::vector<std::pair<std::size_t, d
 
 /// The residues and the atoms of balls, in their order, without the other values.
 Lining namesOf(const BallSet& atoms, const std::vector<std::size_t>& balls);
+
+/// What lines a tunnel, each ball by the length of the way that it is beside.
+Lining liningOfTunnel(const BallSet& atoms, const Report::Tunnels::Tunnel& tunnel);
 
 } // namespace molsurf
