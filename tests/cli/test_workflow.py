@@ -135,7 +135,7 @@ class Workflow(ToolTest):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.batch(0, "--dry-run", "--quiet")
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        self.assertLess(after.ru_utime - before.ru_utime, 10)  # 2 seconds; 100 if each lists the folder again
+        self.assertLess(after.ru_utime - before.ru_utime, 30)  # 2 seconds; 100 if each lists the folder again
 
     def test_not_converged_is_no_failure(self):
         self.batch(0, f"structures={CRAMBIN}", "options=--voxel 1 --flow newton --max-steps 1")

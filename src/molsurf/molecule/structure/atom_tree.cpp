@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace molsurf
@@ -195,13 +196,12 @@ std::size_t hashOf(const Residue& residue)
 void joinModels(Structure& structure)
 {
     std::vector<Model> joined;
+    std::unordered_map<int, std::size_t> places; // in joined, of a number
     std::vector<std::pair<std::size_t, std::size_t>> order; // place of the model, atom
     for (const Model& model : structure.models) {
-        auto same = std::find_if(joined.begin(), joined.end(),
-                                 [&](const Model& m) { return m.number == model.number; });
-        if (same == joined.end()) same = joined.insert(joined.end(), {model.number, 0, 0});
-        for (std::size_t i = model.begin; i < model.end; ++i)
-            order.emplace_back(same - joined.begin(), i);
+        const auto [found, isNew] = places.try_emplace(model.number, joined.size());
+        if (isNew) joined.push_back({model.number, 0, 0});
+        for (std::size_t i = model.begin; i < model.end; ++i) order.emplace_back(found->second, i);
     }
     if (joined.size() == structure.models.size()) return;
     std::stable_sort(order.begin(), order.end(),
