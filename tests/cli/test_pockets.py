@@ -128,7 +128,9 @@ class Pockets(ToolTest):
         self.assertEqual(len(found), len(rows))
         self.assertTrue(any(row["neighbours"] for row in rows))
         for volume, row in zip(found, rows):
-            self.assertAlmostEqual(volume, float(row["volume"]), delta=0.03 * float(row["volume"]) + 1.5, msg=row["pocket"])
+            exact = float(row["volume"])  # with the thin edge between wall and cut, which triangles cut off
+            self.assertLess(volume, exact)
+            self.assertGreater(volume, 0.94 * exact if exact > 100 else 0.5 * exact, row["pocket"])
         self.check(0, DATA / "bpti.pdb.gz", "--pocket-cut", "0.5", "--voxel", "0.5", "--surface", "ses", "-o", "c.pockets.ply", "-o", "c.vdb",
                    *(f"-oc.pockets.{word}" for word in ("obj", "stl", "off", "vtk", "glb")))
         self.assertEqual((self.folder / "c.pocket1.ply").read_bytes(), (self.folder / "b.pocket1.ply").read_bytes())

@@ -133,19 +133,18 @@ CutGraph cutGraph(const VoidGraph& graph, const VoidField& space, const BelowCut
             out.isBelow[n] =
                 isPlaceBelow(graph.nodes[n].place, graph.nodes[n].clearance, space, below);
     });
-    const auto add = [&](std::int32_t node, std::int32_t e, const VoidGraph::Edge& edge,
+    const auto add = [&](std::int32_t node, std::int32_t above, const VoidGraph::Edge& edge,
                          const std::vector<VoidPoint>& points) {
         if (points.empty()) return;
-        out.exits.push_back({node, e, 0.0, Vec3d(0.0), {Vec3d(0.0), 0.0}, edge.balls});
+        out.exits.push_back({node, above, 0.0, Vec3d(0.0), {Vec3d(0.0), 0.0}, edge.balls});
         followToCut(points, below, out.exits.back());
     };
-    for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-        const VoidGraph::Edge& edge = graph.edges[e];
+    for (const VoidGraph::Edge& edge : graph.edges) {
         const bool a = out.isBelow[std::size_t(edge.nodes[0])] != 0,
                    b = out.isBelow[std::size_t(edge.nodes[1])] != 0;
         if (a == b) continue;
         const std::int32_t node = edge.nodes[a ? 0 : 1];
-        add(node, std::int32_t(e), edge, graph.pointsFrom(edge, node, step));
+        add(node, edge.nodes[a ? 1 : 0], edge, graph.pointsFrom(edge, node, step));
     }
     for (const VoidGraph::Edge& edge : graph.stubs) {
         if (out.isBelow[std::size_t(edge.nodes[0])]) continue;
@@ -154,7 +153,7 @@ CutGraph cutGraph(const VoidGraph& graph, const VoidField& space, const BelowCut
             continue;
         std::vector<VoidPoint> points = graph.pointsOf(edge, step);
         std::reverse(points.begin(), points.end());
-        add(VoidGraph::none, VoidGraph::none, edge, points);
+        add(VoidGraph::none, edge.nodes[0], edge, points);
     }
     out.arcs = arcsOf(out.exits);
     return out;

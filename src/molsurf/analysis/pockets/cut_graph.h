@@ -26,7 +26,7 @@ struct CutGraph {
     /// Where an edge comes to the cut.
     struct Exit {
         std::int32_t node;                 ///< below the cut, or none: it comes up from the floor
-        std::int32_t edge;                 ///< of VoidGraph::edges; none: it is a stub
+        std::int32_t above;                ///< the node above the cut that the edge leads to
         double least;                      ///< clearance on the way there [Å]
         openvdb::Vec3d narrowest;          ///< the place of that [Å]
         VoidPoint end;                     ///< on the cut

@@ -4,8 +4,7 @@
 #include "molsurf/analysis/pockets/clearance.h"
 #include "molsurf/analysis/pockets/measure_basins.h"
 #include "molsurf/analysis/pockets/mouth_ways.h"
-#include "molsurf/kernel/balls/ball_index.h"
-#include "molsurf/kernel/balls/excluded_measure.h"
+#include "molsurf/analysis/pockets/swept_cavities.h"
 #include "molsurf/kernel/balls/nearest_ball.h"
 #include "molsurf/kernel/core/disjoint_sets.h"
 
@@ -14,13 +13,14 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <set>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 namespace molsurf
 {
 
+using openvdb::Vec3d;
 using openvdb::Vec3f;
 
 namespace
@@ -63,8 +63,9 @@ std::vector<openvdb::Vec3d> directions()
     return out;
 }
 
-/// The radius of the largest ball in a pocket: from its widest voxel it moves to where it has more
-/// room, by longer steps as long as there is more and by shorter ones where there is not.
+/// The radius of the largest ball in a pocket without a node: from its widest voxel it moves to
+/// where it has more room, by longer steps as long as there is more and by shorter ones where there
+/// is not.
 /// @param[in] isWithin  whether a point is of the pocket
 double largestBall(const openvdb::Vec3d& widest, double voxelSize, const Clearance& clearance,
                    const std::function<bool(const openvdb::Vec3d&)>& isWithin)
@@ -119,113 +120,109 @@ std::vector<PocketReport::Mouth> mouthsOf(const BasinMeasure& basin,
     return out;
 }
 
+/// The node whose ball a place lies deepest in.
+std::int32_t nodeAt(const VoidGraph& graph, const openvdb::Vec3d& x)
+{
+    std::int32_t best = VoidGraph::outside;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 1; n < graph.nodes.size(); ++n) {
+        const double gap = (x - graph.nodes[n].place).length() - graph.nodes[n].clearance;
+        if (gap >= least) continue;
+        least = gap;
+        best = std::int32_t(n);
+    }
+    return best;
+}
+
+/// Which basins the small probe reaches from outside, by the graph of the void.
+std::vector<char> openBasins(const RoomBasins& split, const std::vector<BasinMeasure>& measures)
+{
+    const VoidGraph& graph = split.graph;
+    DisjointSets sets(graph.nodes.size());
+    for (const VoidGraph::Edge& edge : graph.edges)
+        sets.join(std::uint32_t(edge.nodes[0]), std::uint32_t(edge.nodes[1]));
+    const auto isOutside = [&](std::int32_t node) {
+        return sets.find(std::uint32_t(node)) == sets.find(VoidGraph::outside);
+    };
+    std::vector<char> out;
+    for (std::size_t b = 0; b < measures.size(); ++b) {
+        const auto& [widest, mouths] = std::tie(split.widest[b], measures[b].mouths);
+        out.push_back(widest ? isOutside(widest->node)
+                             : !mouths.empty() && isOutside(nodeAt(graph, mouths[0].widestPlace)));
+    }
+    return out;
+}
+
 /// Leaves out mouths that lead nowhere: those that are narrow, which are edges of the cut, and
 /// those of voids that the small probe does not reach from outside, which only touch the cut.
-void removeBlindMouths(const std::vector<Ball>& balls, double probe,
-                       std::vector<BasinMeasure>& basins, const Progress& progress)
+void removeBlindMouths(double probe, const std::vector<char>& isOpen,
+                       std::vector<BasinMeasure>& basins)
 {
     const double least = 0.5 * probe; // of the clearance, where a mouth is widest [Å]
-    const auto remove = [&](const auto& leadsNowhere) {
-        bool any = false;
-        for (BasinMeasure& basin : basins) {
-            auto& mouths = basin.mouths;
-            mouths.erase(std::remove_if(mouths.begin(), mouths.end(), leadsNowhere), mouths.end());
-            any = any || !mouths.empty();
-        }
-        return any;
-    };
-    using Mouth = BasinMeasure::Mouth;
-    if (!remove([=](const Mouth& mouth) { return mouth.widest < least; })) return;
-    const OuterDepth depth(balls, probe, OuterDepth::Reach::Passed, progress);
-    if (depth.hasVoids())
-        remove([&](const Mouth& mouth) { return !depth.isOutside(mouth.widestPlace, probe); });
-}
-
-/// The balls about a void in parts: those whose grown balls hang together, of parts that line it.
-/// @param[in] near  Ball::atom is the ball that the lining names
-std::vector<std::vector<Ball>> partsAbout(const std::vector<Ball>& near, double probe,
-                                          const std::vector<PocketReport::Lining>& lining)
-{
-    const BallIndex index(near, {1.0, probe, 1.0});
-    DisjointSets sets(near.size());
-    for (std::uint32_t i = 0; i < near.size(); ++i) {
-        const Ball& ball = near[i];
-        const double touch = ball.radius + 2.0 * probe;
-        index.forEachNear(ball.center, ball.center, touch, [&](const Ball& o, std::int32_t k) {
-            if ((o.center - ball.center).length() < o.radius + touch)
-                sets.join(i, std::uint32_t(k));
-        });
-    }
-    std::set<std::size_t> lines;
-    for (const PocketReport::Lining& part : lining) lines.insert(part.ball);
-    std::map<std::uint32_t, std::vector<Ball>> parts;
-    for (std::uint32_t i = 0; i < near.size(); ++i)
-        if (lines.count(std::size_t(near[i].atom))) parts[sets.find(i)];
-    for (std::uint32_t i = 0; i < near.size(); ++i) {
-        const auto part = parts.find(sets.find(i));
-        if (part != parts.end()) part->second.push_back(near[i]);
-    }
-    std::vector<std::vector<Ball>> out;
-    for (auto& [root, balls] : parts) out.push_back(std::move(balls));
-    return out;
-}
-
-/// Takes the exact measures of a pocket that is a whole cavity: those of the solvent-excluded
-/// surface of the balls about it. One part of them has the wall, a piece that faces inward; other
-/// parts are bodies in the cavity. It is the one of the nearest volume, if one is near.
-void takeExact(const BallIndex& balls, double probe, const BasinMeasure& basin,
-               const Progress& progress, PocketReport& pocket)
-{
-    // measured: a void of 16 Å^3 on voxels of 0.5 Å, 6 % too small
-    constexpr double same = 0.15; // of the volume, by which cavities are told from each other
-    openvdb::BBoxd box;
-    for (const BasinMeasure::Wall& wall : basin.walls) box.expand(openvdb::Vec3d(wall.place));
-    std::vector<Ball> near; // Ball::atom is the ball
-    balls.forEachNear(box.min(), box.max(), 2.5 * probe, [&](const Ball& ball, std::int32_t i) {
-        near.push_back({ball.center, ball.radius, i});
-    });
-    std::vector<std::vector<BoundaryPiece>> parts;
-    BoundaryPiece bodies; // all outer pieces
-    for (const std::vector<Ball>& part : partsAbout(near, probe, pocket.lining)) {
-        const BallBoundary boundary = ballBoundary(part, probe, progress);
-        parts.push_back(
-            measureExcluded(boundary, measureBoundary(boundary, progress), probe, false, progress)
-                .pieces);
-        for (const BoundaryPiece& piece : parts.back()) {
-            if (piece.volume < 0.0) continue;
-            bodies.volume += piece.volume;
-            bodies.area += piece.area;
-        }
-    }
-    double least = same * basin.volume;
-    for (const std::vector<BoundaryPiece>& part : parts) {
-        BoundaryPiece within = bodies;
-        for (const BoundaryPiece& piece : part) {
-            if (piece.volume < 0.0) continue;
-            within.volume -= piece.volume;
-            within.area -= piece.area;
-        }
-        for (const BoundaryPiece& piece : part) {
-            const double volume = -piece.volume - within.volume;
-            if (piece.volume >= 0.0 || std::abs(volume - basin.volume) >= least) continue;
-            least = std::abs(volume - basin.volume);
-            pocket.volume = volume;
-            pocket.area = piece.area + within.area;
-        }
+    for (std::size_t b = 0; b < basins.size(); ++b) {
+        auto& mouths = basins[b].mouths;
+        mouths.erase(std::remove_if(mouths.begin(), mouths.end(),
+                                    [&](const BasinMeasure::Mouth& mouth) {
+                                        return !isOpen[b] || mouth.widest < least;
+                                    }),
+                     mouths.end());
     }
 }
 
-/// Union-find of basins by their necks: whether a way leads out of each.
-std::vector<char> opened(const Basins& basins, const std::vector<BasinMeasure>& measures)
+/// Basins of closed cavities that belong together, for each the first of its group: a probe passes
+/// from one to the other, or its balls on both sides overlap. A basin of no closed cavity, or one
+/// that has a part only, is in none: -1.
+std::vector<std::int32_t> cavityGroups(const RoomBasins& split, const std::vector<char>& isOpen)
 {
-    DisjointSets sets(basins.count());
-    for (const Neck& neck : basins.necks)
+    const std::size_t count = isOpen.size();
+    DisjointSets sets(count);
+    for (const Neck& neck : split.basins.necks)
         sets.join(std::uint32_t(neck.basins[0]), std::uint32_t(neck.basins[1]));
-    std::vector<char> roots(basins.count(), 0), out;
-    for (std::uint32_t b = 0; b < measures.size(); ++b)
-        if (!measures[b].mouths.empty()) roots[sets.find(b)] = 1;
-    for (std::uint32_t b = 0; b < measures.size(); ++b) out.push_back(roots[sets.find(b)]);
+    std::vector<int> sizes(count, 0);
+    std::vector<char> isMeasured(count, 1);
+    for (std::uint32_t b = 0; b < count; ++b) ++sizes[sets.find(b)];
+    for (std::uint32_t b = 0; b < count; ++b) {
+        const auto& widest = split.widest[b];
+        const std::uint32_t root = sets.find(b);
+        // One that is alone is a pocket as a whole, also what of it reaches above the cut.
+        if (isOpen[b] || !widest || widest->isExit || (sizes[root] > 1 && split.isCut[b]))
+            isMeasured[root] = 0;
+    }
+    std::vector<std::int32_t> out(count, -1);
+    for (std::uint32_t b = 0; b < count; ++b)
+        if (isMeasured[sets.find(b)]) out[b] = std::int32_t(sets.find(b));
     return out;
+}
+
+/// Gives pockets of closed cavities their exact measures: those of each group are parted by the
+/// measures of its basins on voxels.
+void takeExact(const SweptCavities& cavities, const RoomBasins& split,
+               const std::vector<BasinMeasure>& measures, const std::vector<char>& isOpen,
+               const Progress& progress, std::vector<PocketReport>& pockets)
+{
+    const std::vector<std::int32_t> groupOf = cavityGroups(split, isOpen);
+    std::map<std::int32_t, std::vector<std::size_t>> groups;
+    for (std::size_t b = 0; b < groupOf.size(); ++b)
+        if (groupOf[b] >= 0) groups[groupOf[b]].push_back(b);
+    for (const auto& [first, own] : groups) {
+        SweptCavities::Query query;
+        double volume = 0.0, area = 0.0;
+        for (const std::size_t b : own) {
+            query.places.push_back(split.widest[b]->ball.place);
+            for (const BasinMeasure::Wall& wall : measures[b].walls)
+                query.box.expand(Vec3d(wall.place));
+            for (const PocketReport::Lining& part : pockets[b].lining)
+                query.lining.insert(part.ball);
+            volume += measures[b].volume;
+            area += measures[b].area;
+        }
+        const auto swept = cavities.measure(query, progress);
+        if (!swept) continue;
+        for (const std::size_t b : own) {
+            pockets[b].volume *= swept->volume / volume;
+            pockets[b].area *= swept->area / area;
+        }
+    }
 }
 
 /// A pocket, and its basin.
@@ -334,41 +331,40 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
                     const std::vector<openvdb::Vec3d>& at, const Progress& progress)
 {
     const VoidField space = voidField(balls, options, voxelSize, progress);
-    const double voxelVolume = voxelSize * voxelSize * voxelSize;
     const double nearCut = options.probeOut + options.cut + 1.0; // a guess, as pocketDepth [Å]
     const BelowCut below = [&](const openvdb::Vec3d& x, double room) {
         OuterDepth::Depth depth = space.outer->at(x, room >= options.probeOut, nearCut);
         depth.value -= options.cut;
         return depth;
     };
-    const RoomBasins split = splitAtRooms(
-        balls, options.probeIn, space, {options.neck, leastPocket / voxelVolume}, below, progress);
+    const RoomBasins split =
+        splitAtRooms(balls, options.probeIn, space, options.neck, below, progress);
     const Basins& basins = split.basins;
     std::vector<BasinMeasure> measures = measureBasins(space, basins, progress);
-    removeBlindMouths(balls, options.probeIn, measures, progress);
-    const std::vector<char> isOpen = opened(basins, measures);
+    const std::vector<char> isOpen = openBasins(split, measures);
+    removeBlindMouths(options.probeIn, isOpen, measures);
     // A point of a wall is on a probe that touches balls.
     std::vector<std::vector<PocketReport::Lining>> linings =
         liningsOf(balls, measures, 2.0 * options.probeIn + voxelSize, progress);
-    const BallIndex index(balls, {1.0, options.probeIn, 1.0});
+    std::vector<PocketReport> pockets;
+    for (std::size_t b = 0; b < basins.count(); ++b) {
+        pockets.push_back(pocketOf(measures[b], *space.outer));
+        pockets[b].open = isOpen[b];
+        pockets[b].lining = std::move(linings[b]);
+    }
+    takeExact(SweptCavities(balls, options.probeIn), split, measures, isOpen, progress, pockets);
     const Clearance clearance(balls);
     const auto isWithin = [&](const openvdb::Vec3d& x) {
         return below(x, clearance.at(x)).value >= 0.0;
     };
     const std::vector<std::vector<MouthWay>> ways = mouthWays(space, split, measures);
-    std::vector<char> hasNeck(basins.count(), 0);
-    for (const Neck& neck : basins.necks)
-        for (const std::int32_t basin : neck.basins) hasNeck[std::size_t(basin)] = 1;
     std::vector<FoundPocket> found;
     for (std::size_t b = 0; b < basins.count(); ++b) {
-        PocketReport pocket = pocketOf(measures[b], *space.outer);
-        pocket.open = isOpen[b];
-        pocket.mouths.resize(measures[b].mouths.size());
-        pocket.lining = std::move(linings[b]);
-        if (measures[b].mouths.empty() && !hasNeck[b])
-            takeExact(index, options.probeIn, measures[b], progress, pocket);
+        PocketReport& pocket = pockets[b];
+        const std::optional<WidestPlace>& widest = split.widest[b];
         if (pocket.volume < leastPocket) continue;
-        pocket.radius = largestBall(measures[b].widest, voxelSize, clearance, isWithin);
+        pocket.radius = widest ? widest->ball.clearance
+                               : largestBall(measures[b].widest, voxelSize, clearance, isWithin);
         pocket.mouths = mouthsOf(measures[b], ways[b], pocket.radius);
         found.emplace_back(std::move(pocket), b);
     }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -22,20 +23,20 @@ using openvdb::Vec3f;
 namespace
 {
 
-/// A corner of a tetrahedron.
-struct CellCorner {
+/// A point with both distances of VoidField, which are linear between corners of a tetrahedron.
+struct CellPoint {
     Vec3d x;
-    double room, clearance, below; ///< of VoidField [Å]
-    std::int32_t basin;
+    double clearance, below; ///< [Å]
+};
+
+/// A corner of a cell.
+struct CellCorner : CellPoint {
+    std::int32_t basin; ///< -1: it has no room
     std::int32_t voxel; ///< corner of the cell, 0 to 7
 };
 
-/// A point between two corners at which the room ends.
-struct CellEdge {
-    Vec3d x;
-    double excess; ///< clearance less `below`: above 0 at mouths
-    double clearance;
-};
+using Tetrahedron = std::array<CellPoint, 4>;
+using Triangle = std::array<CellPoint, 3>;
 
 /// Share of a cell in a basin.
 struct Share {
@@ -57,24 +58,61 @@ struct LeafShare {
     std::vector<MouthPiece> mouths;
 };
 
-/// The share of a tetrahedron where a linear function is above 0, by its values at the corners, of
-/// which the first `above` are.
-double shareAbove(const std::array<const CellCorner*, 4>& c, int above)
+/// Where one of the distances is 0 on an edge.
+CellPoint edgeBetween(const CellPoint& in, const CellPoint& out, double CellPoint::*value)
 {
-    const auto cut = [&](int i, int j) { return c[i]->room / (c[i]->room - c[j]->room); };
-    if (above == 4) return 1.0;
-    if (above == 1) return cut(0, 1) * cut(0, 2) * cut(0, 3);
-    if (above == 3) return 1.0 - (1.0 - cut(0, 3)) * (1.0 - cut(1, 3)) * (1.0 - cut(2, 3));
-    const double s = cut(0, 2), t = cut(0, 3), u = cut(1, 2), w = cut(1, 3);
-    return s * t + s * (1.0 - t) * w + (1.0 - s) * u * w;
+    const double t = in.*value / (in.*value - out.*value);
+    return {in.x + t * (out.x - in.x), in.clearance + t * (out.clearance - in.clearance),
+            in.below + t * (out.below - in.below)};
 }
 
-CellEdge edgeBetween(const CellCorner& in, const CellCorner& out)
+/// Cuts a tetrahedron where one of its distances is 0.
+/// @param[in] above  called with tetrahedra that make up the part where it is above 0
+/// @param[in] cut    called with triangles that make up the face where it is 0
+template<typename Above, typename Cut>
+void clip(Tetrahedron p, double CellPoint::*value, const Above& above, const Cut& cut)
 {
-    const double t = in.room / (in.room - out.room);
-    const double clearance = in.clearance + t * (out.clearance - in.clearance);
-    const double below = in.below + t * (out.below - in.below);
-    return {in.x + t * (out.x - in.x), clearance - below, clearance};
+    const auto end = std::stable_partition(
+        p.begin(), p.end(), [&](const CellPoint& point) { return point.*value > 0.0; });
+    const auto edge = [&](std::size_t i, std::size_t j) { return edgeBetween(p[i], p[j], value); };
+    // A prism with the edges a0 b0, a1 b1 and a2 b2.
+    const auto prism = [&](const Triangle& a, const Triangle& b) {
+        above(Tetrahedron{a[0], a[1], a[2], b[2]});
+        above(Tetrahedron{a[0], a[1], b[2], b[1]});
+        above(Tetrahedron{a[0], b[0], b[1], b[2]});
+    };
+    switch (end - p.begin()) {
+    case 1: {
+        const Triangle face{edge(0, 1), edge(0, 2), edge(0, 3)};
+        above(Tetrahedron{p[0], face[0], face[1], face[2]});
+        return cut(face);
+    }
+    case 2: {
+        const CellPoint a = edge(0, 2), b = edge(0, 3), c = edge(1, 2), d = edge(1, 3);
+        prism({p[0], a, b}, {p[1], c, d});
+        cut(Triangle{a, b, d});
+        return cut(Triangle{a, d, c});
+    }
+    case 3: {
+        const Triangle face{edge(0, 3), edge(1, 3), edge(2, 3)};
+        prism({p[0], p[1], p[2]}, face);
+        return cut(face);
+    }
+    case 4:
+        return above(p);
+    default:
+        return;
+    }
+}
+
+double volumeOf(const Tetrahedron& p)
+{
+    return std::abs((p[1].x - p[0].x).cross(p[2].x - p[0].x).dot(p[3].x - p[0].x)) / 6.0;
+}
+
+double areaOf(const Triangle& p)
+{
+    return 0.5 * (p[1].x - p[0].x).cross(p[2].x - p[0].x).length();
 }
 
 /// The share of a triangle where a linear function is above 0.
@@ -112,11 +150,11 @@ public:
                 CellCorner& c = corners[std::size_t(k)];
                 c.clearance = *clearance.at(x, y, z);
                 c.below = *below.at(x, y, z);
-                c.room = std::min(c.clearance, c.below);
-                c.basin = *basin.at(x, y, z);
+                const bool hasRoom = c.clearance > 0.0 && c.below > 0.0;
+                c.basin = hasRoom ? *basin.at(x, y, z) : -1;
                 c.x = origin.offsetBy(x, y, z).asVec3d() * space_.voxelSize;
                 c.voxel = k;
-                above += c.room > 0.0;
+                above += hasRoom;
             }
             if (above > 0) measureCell(n, v, corners, out);
         }
@@ -125,85 +163,88 @@ public:
 
 private:
     /// Adds the shares of the cell at voxel v of leaf n, by the six tetrahedra of Kuhn's
-    /// triangulation: corners 0 and 7 and two between them.
+    /// triangulation: corners 0 and 7 and two between them. What a tetrahedron has belongs to those
+    /// of its corners that have room, else to the first of the cell's.
     void measureCell(std::size_t n, int v, const std::array<CellCorner, 8>& corners,
                      LeafShare& out) const
     {
         constexpr int ways[6][2] = {{1, 3}, {1, 5}, {2, 3}, {2, 6}, {4, 5}, {4, 6}};
-        std::vector<Share>& shares = out.shares;
-        const std::size_t first = shares.size();
-        const auto shareOf = [&](std::int32_t basin) -> Share& {
-            for (std::size_t i = first; i < shares.size(); ++i)
-                if (shares[i].basin == basin) return shares[i];
-            return shares.emplace_back(Share{basin});
-        };
+        const std::size_t first = out.shares.size();
+        const auto hasRoom = [](const CellCorner& c) { return c.basin >= 0; };
+        const CellCorner& any = *std::find_if(corners.begin(), corners.end(), hasRoom);
         for (const auto& way : ways) {
-            std::array<const CellCorner*, 4> c = {&corners[0], &corners[std::size_t(way[0])],
-                                                  &corners[std::size_t(way[1])], &corners[7]};
-            const auto end = std::stable_partition(
-                c.begin(), c.end(), [](const CellCorner* corner) { return corner->room > 0.0; });
-            const int above = int(end - c.begin());
-            if (above == 0) continue;
-            const double h = space_.voxelSize;
-            const double volume = shareAbove(c, above) * h * h * h / 6.0 / above;
-            for (int i = 0; i < above; ++i) {
-                Share& share = shareOf(c[i]->basin);
-                share.volume += volume;
-                share.moment += volume * c[i]->x;
-            }
-            if (above < 4) measureFace(n, v, c, above, shareOf, out);
+            const std::array<const CellCorner*, 4> c = {&corners[0], &corners[std::size_t(way[0])],
+                                                        &corners[std::size_t(way[1])], &corners[7]};
+            std::vector<const CellCorner*> own;
+            for (const CellCorner* corner : c)
+                if (hasRoom(*corner)) own.push_back(corner);
+            if (own.empty()) own.push_back(&any);
+            const Measure measure = measureOf({*c[0], *c[1], *c[2], *c[3]});
+            if (measure.volume > 0.0) addTo(out.shares, first, own, measure);
+            if (measure.mouth > 0.0) addMouth(n, v, own, measure.mouth, out);
         }
     }
 
-    /// Measures where the room ends in a tetrahedron: a triangle, or a quad of two, whose corners
-    /// follow each other about it.
-    template<typename ShareOf>
-    void measureFace(std::size_t n, int v, const std::array<const CellCorner*, 4>& c, int above,
-                     const ShareOf& shareOf, LeafShare& out) const
+    /// What of a tetrahedron is room.
+    struct Measure {
+        double volume = 0.0, wall = 0.0, mouth = 0.0;
+        Vec3d moment{0.0}, wallMoment{0.0};
+    };
+
+    static Measure measureOf(const Tetrahedron& p)
     {
-        std::array<CellEdge, 4> edges;
-        int count = 0;
-        const auto add = [&](int i, int j) {
-            edges[std::size_t(count++)] = edgeBetween(*c[i], *c[j]);
-        };
-        if (above == 2) {
-            for (const auto& pair : {std::pair(0, 2), {0, 3}, {1, 3}, {1, 2}})
-                add(pair.first, pair.second);
-        } else {
-            for (int i = 0; i < above; ++i)
-                for (int j = above; j < 4; ++j) add(i, j);
-        }
-        double mouth = 0.0, wall = 0.0;
-        Vec3d moment(0.0);
-        for (int t = 0; t + 2 < count; ++t) {
-            const CellEdge &p = edges[0], &q = edges[std::size_t(t + 1)],
-                           &r = edges[std::size_t(t + 2)];
-            const double area = 0.5 * (q.x - p.x).cross(r.x - p.x).length();
-            const double open = shareAbove({p.excess, q.excess, r.excess}) * area;
-            mouth += open;
-            wall += area - open;
-            moment += (area - open) / 3.0 * (p.x + q.x + r.x);
-        }
-        for (int i = 0; i < above; ++i) {
-            Share& share = shareOf(c[i]->basin);
-            share.wall += wall / above;
-            share.wallMoment += moment / above;
-        }
-        if (mouth > 0.0) addMouth(n, v, c, above, mouth, out);
+        Measure out;
+        clip(
+            p, &CellPoint::clearance,
+            [&](const Tetrahedron& reached) {
+                clip(
+                    reached, &CellPoint::below,
+                    [&](const Tetrahedron& room) {
+                        const double volume = volumeOf(room);
+                        out.volume += volume;
+                        out.moment +=
+                            0.25 * volume * (room[0].x + room[1].x + room[2].x + room[3].x);
+                    },
+                    [&](const Triangle& mouth) { out.mouth += areaOf(mouth); });
+            },
+            [&](const Triangle& wall) {
+                const double area =
+                    areaOf(wall) * shareAbove({wall[0].below, wall[1].below, wall[2].below});
+                out.wall += area;
+                out.wallMoment += area / 3.0 * (wall[0].x + wall[1].x + wall[2].x);
+            });
+        return out;
     }
 
-    void addMouth(std::size_t n, int v, const std::array<const CellCorner*, 4>& c, int above,
-                  double area, LeafShare& out) const
+    /// Gives each of some corners the same part, as shares of a cell.
+    /// @param[in] first  the first share of the cell
+    static void addTo(std::vector<Share>& shares, std::size_t first,
+                      const std::vector<const CellCorner*>& corners, const Measure& measure)
     {
-        for (int i = 0; i < above; ++i) {
-            const std::int32_t basin = c[i]->basin;
+        const double part = 1.0 / double(corners.size());
+        for (const CellCorner* corner : corners) {
+            auto share = std::find_if(shares.begin() + std::ptrdiff_t(first), shares.end(),
+                                      [&](const Share& s) { return s.basin == corner->basin; });
+            if (share == shares.end()) share = shares.insert(shares.end(), Share{corner->basin});
+            share->volume += part * measure.volume;
+            share->moment += part * measure.moment;
+            share->wall += part * measure.wall;
+            share->wallMoment += part * measure.wallMoment;
+        }
+    }
+
+    void addMouth(std::size_t n, int v, const std::vector<const CellCorner*>& corners, double area,
+                  LeafShare& out) const
+    {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const std::int32_t basin = corners[i]->basin;
             const auto same = [&](const CellCorner* other) { return other->basin == basin; };
-            if (std::any_of(c.begin(), c.begin() + i, same)) continue;
+            if (std::any_of(corners.begin(), corners.begin() + std::ptrdiff_t(i), same)) continue;
             MouthPiece piece{basin, 0.0, {}};
-            for (int j = i; j < above; ++j) {
-                if (c[j]->basin != basin) continue;
-                piece.area += area / above;
-                piece.voxels.push_back(placeOf(n, v, c[j]->voxel));
+            for (const CellCorner* corner : corners) {
+                if (corner->basin != basin) continue;
+                piece.area += area / double(corners.size());
+                piece.voxels.push_back(placeOf(n, v, corner->voxel));
             }
             out.mouths.push_back(std::move(piece));
         }

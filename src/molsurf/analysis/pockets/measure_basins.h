@@ -4,7 +4,7 @@
 /// @file
 /// Volumes, walls and mouths of the parts of a space.
 
-#include "molsurf/analysis/pockets/watershed.h"
+#include "molsurf/analysis/pockets/basins.h"
 #include "molsurf/progress.h"
 
 #include <openvdb/Types.h>
@@ -42,10 +42,10 @@ struct BasinMeasure {
     std::vector<Wall> walls;     ///< one a cell
 };
 
-/// Measures each basin. The space in a cell is that where the linear interpolation of
-/// VoidField::room() in six tetrahedra is above 0; its faces are walls where the clearance ends and
-/// mouths where the depth does. The error of walls and mouths falls with the square of the voxels;
-/// what is lost where both are less than a voxel apart, with the voxels.
+/// Measures each basin. The space in a cell is that of its six tetrahedra where the linear
+/// interpolations of both distances are above 0; its faces are walls where the clearance ends and
+/// mouths where the depth does. Errors fall with the square of the voxels; what is lost in cells
+/// without a corner in the space, with the voxels.
 std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& basins,
                                         const Progress& progress);
 

@@ -4,8 +4,8 @@
 /// @file
 /// How large a ball gets out of a pocket.
 
+#include "molsurf/analysis/pockets/basins.h"
 #include "molsurf/analysis/pockets/measure_basins.h"
-#include "molsurf/analysis/pockets/watershed.h"
 #include "molsurf/progress.h"
 
 #include <openvdb/Types.h>

@@ -13,6 +13,7 @@
 #include <openvdb/Types.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace molsurf
@@ -47,31 +48,27 @@ void forEachJoined(const LeafTable& table, VoxelPlace place, const F& f)
     }
 }
 
-/// Where two basins touch.
+/// Where two basins meet.
 struct Neck {
     std::int32_t basins[2]; ///< ascending
-    float clearance;        ///< of its widest voxel [Å]
+    float clearance; ///< of its widest place [Å]; 0: the probe does not pass, but balls of it
+                     ///< on both sides overlap
 };
 
 /// Parts of the active voxels of a VoidField.
 struct Basins {
     LeafArray<std::int32_t> of; ///< of each voxel its basin, or -1
-    std::vector<float> peaks;   ///< of each basin the largest clearance [Å]
+    std::vector<float> peaks;   ///< of each basin the largest clearance of its voxels [Å]
     std::vector<Neck> necks;    ///< in ascending order of the basins
 
     std::size_t count() const { return peaks.size(); }
 };
 
-/// Splits a space where it is narrow, by the persistence of the maxima of its clearance: voxels
-/// join, those of large clearance first, and two parts that meet stay apart if the clearance there
-/// is below a share of the smaller of their maxima.
-/// @param[in] share        1: every maximum is a basin; 0: what hangs together is one
-/// @param[in] leastVoxels  a basin of fewer joins the neighbour with the widest neck
-Basins splitAtNecks(const VoidField& space, double share, double leastVoxels);
-
-/// Where a space is split, as by splitAtNecks().
-struct SplitRule {
-    double share, leastVoxels;
+/// Where a basin is widest.
+struct WidestPlace {
+    VoidPoint ball;
+    std::int32_t node; ///< it, or that above the cut to which a way leads from there
+    bool isExit;       ///< whether it lies on the cut
 };
 
 /// A split space, and the graph that decided it.
@@ -80,14 +77,21 @@ struct RoomBasins {
     VoidGraph graph;                   ///< of what the small probe passes
     CutGraph cut;                      ///< of that what is below the cut
     std::vector<std::int32_t> ofNodes; ///< of each node its basin, or -1
+    /// Of each basin the largest ball about a node or an exit; none: it has neither.
+    std::vector<std::optional<WidestPlace>> widest;
+    std::vector<char> isCut; ///< of each basin whether an exit is of it
 };
 
-/// Splits a space as splitAtNecks() does, but by the nodes and exits of the graph of the void below
-/// the cut and what passes between them, which do not depend on voxels: labels of these flow from
-/// the nodes and exits down. Where the probe does not pass, parts stay apart. Only maxima of voxels
-/// that lead to no node and no exit count as they are.
+/// Splits a space where it is narrow. The nodes and exits of the graph of the void below the cut,
+/// where the clearance is largest, join, the widest places where two meet first, and two parts stay
+/// apart if the clearance there is below a share of the smaller of their largest clearances. Each
+/// place belongs to the part of the ball about a node or an exit that it lies deepest in, of what
+/// hangs together with it: two balls that touch the same three atoms meet in the circle through
+/// these. None of it depends on voxels, but that they hang together. What has no node and no exit
+/// is one part.
 /// @param[in] probe  the small one [Å]
+/// @param[in] share  1: every maximum is a basin; 0: what hangs together is one
 RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const VoidField& space,
-                        const SplitRule& rule, const BelowCut& below, const Progress& progress);
+                        double share, const BelowCut& below, const Progress& progress);
 
 } // namespace molsurf
