@@ -102,14 +102,18 @@ PocketReport pocketOf(const BasinMeasure& basin, const OuterDepth& outer)
 
 /// The mouths of a pocket, the largest first. Where nothing on the way is narrower than the place
 /// where it begins the largest ball of the pocket gets out.
-/// @param[in] ways  to each mouth; where the graph has none, those of the voxels count
+/// @param[in] ways  to each mouth: one to which the graph has no way is none. Where it has none at
+///                  all those of the voxels count.
 std::vector<PocketReport::Mouth> mouthsOf(const BasinMeasure& basin,
                                           const std::vector<MouthWay>& ways, double largest)
 {
+    const auto isKnown = [](const MouthWay& way) { return way.radius >= 0.0; };
+    const bool any = std::any_of(ways.begin(), ways.end(), isKnown);
     std::vector<PocketReport::Mouth> out;
     for (std::size_t m = 0; m < basin.mouths.size(); ++m) {
         const BasinMeasure::Mouth& mouth = basin.mouths[m];
-        const bool known = ways[m].radius >= 0.0;
+        const bool known = isKnown(ways[m]);
+        if (any && !known) continue;
         const openvdb::Vec3d& place = known ? ways[m].place : mouth.narrowest;
         double radius = known ? ways[m].radius : mouth.radius;
         if (known && !ways[m].isNarrower) radius = largest;
