@@ -46,7 +46,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "compare"' -l superpose -x -a 'auto' -d 'lay B on A, structures of --panel on INPUT or frames on the'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "bricks plan" "info"' -l max-input -r -d 'bytes that INPUT may have, unpacked, such as 10G'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l frames -r -d 'a surface for every S-th frame from A to B: models of'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l trajectory -r -d '.dcd or .xtc with the frames, its atoms those of INPUT'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l trajectory -r -d '.dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l update-selections -d 'selections by distance, as within 5 of resn HEM, are those'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l first-frame -r -d 'number of the first file, such as 1001: name.1001.vdb, ...'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l fps -r -d 'frames per second, such as 24: velocities of --fields v'

@@ -114,7 +114,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--superpose:lay B on A, structures of --panel on INPUT or frames on the'
       '--max-input:bytes that INPUT may have, unpacked, such as 10G'
       '--frames:a surface for every S-th frame from A to B\: models of'
-      '--trajectory:.dcd or .xtc with the frames, its atoms those of INPUT'
+      '--trajectory:.dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT'
       '--update-selections:selections by distance, as within 5 of resn HEM, are those'
       '--first-frame:number of the first file, such as 1001\: name.1001.vdb, ...'
       '--fps:frames per second, such as 24\: velocities of --fields v'

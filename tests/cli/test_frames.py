@@ -52,6 +52,58 @@ def dcd(frames, order="<", cell=False, fixed=(), promised=None, marker="i"):
     return data
 
 
+def trr(frames, width="f", velocities=False, extra=()):
+    """A TRR file as GROMACS writes it, in nanometres; frames of velocities alone where `extra` says."""
+    atoms, size = len(frames[0]), struct.calcsize(width)
+    data = b""
+    for n, frame in enumerate(frames):
+        for has in ((False, True) if n in extra else (True,)):
+            x = b"".join(struct.pack(f">3{width}", *(value / 10 for value in at)) for at in frame) if has else b""
+            v = struct.pack(f">{3 * atoms}{width}", *[0.25] * 3 * atoms) if velocities or not has else b""
+            data += struct.pack(">ii", 1993, 13) + struct.pack(">i", 12) + b"GMX_trn_file"
+            data += struct.pack(">13i", 0, 0, 9 * size, 0, 0, 0, 0, len(x), len(v), 0, atoms, n, 0)
+            data += struct.pack(f">2{width}", 0.0, 0.0) + struct.pack(f">9{width}", *[5] * 9) + x + v
+    return data
+
+
+def netcdf(frames, version=1, width="f", scale=None, promised=None, restart=False):
+    """A NetCDF file as Amber writes it, with times before the coordinates and velocities behind them."""
+    offset, count = ">i" if version == 1 else ">q", ">q" if version == 5 else ">i"
+    atoms, size = len(frames[0]), struct.calcsize(width)
+
+    def text(name):
+        return struct.pack(count, len(name)) + name.encode().ljust((len(name) + 3) // 4 * 4, b"\0")
+
+    def variable(name, dimensions, size, begin, attributes=b""):
+        of = {"f": 5, "d": 6}[width]
+        return (text(name) + struct.pack(count, len(dimensions)) + b"".join(struct.pack(count, d) for d in dimensions) +
+                (attributes or struct.pack(">i", 0) + struct.pack(count, 0)) +
+                struct.pack(">i", of) + struct.pack(count, size) + struct.pack(offset, begin))
+
+    scaled = b""
+    if scale is not None:
+        scaled = (struct.pack(">i", 12) + struct.pack(count, 2) + text("units") + struct.pack(">i", 2) + text("angstrom") +
+                  text("scale_factor") + struct.pack(">i", 5) + struct.pack(count, 1) + struct.pack(">f", scale))
+    records = 0 if restart else len(frames) if promised is None else promised
+    front = b"CDF" + bytes([version]) + struct.pack(count, records)
+    front += struct.pack(">i", 10) + struct.pack(count, 3)
+    for name, length in (("frame", 0), ("spatial", 3), ("atom", atoms)):
+        front += text(name) + struct.pack(count, length)
+    front += struct.pack(">i", 12) + struct.pack(count, 1) + text("Conventions") + struct.pack(">i", 2) + text("AMBER")
+    axes = [2, 1] if restart else [0, 2, 1]
+    body = 3 * atoms * size
+
+    def variables(begin):
+        return (struct.pack(">i", 11) + struct.pack(count, 3) + variable("time", [] if restart else [0], size, begin) +
+                variable("coordinates", axes, body, begin + size, scaled) + variable("velocities", axes, body, begin + size + body))
+    data = front + variables(len(front) + len(variables(0)))
+    for frame in frames:
+        data += struct.pack(f">{width}", 1.0)
+        data += b"".join(struct.pack(f">3{width}", *(value / (scale or 1) for value in at)) for at in frame)
+        data += struct.pack(f">{3 * atoms}{width}", *[0.5] * 3 * atoms)
+    return data
+
+
 class Frames(ToolTest):
     def table(self, name="a.csv"):
         with open(self.folder / name, newline="") as file:
@@ -131,13 +183,46 @@ class Frames(ToolTest):
                 for name in "ab")
         self.assertEqual((a["area"], a["volume"]), (b["area"], b["volume"]))
 
+    def test_trr_and_netcdf(self):
+        """Of every width and version they have the areas of a DCD of the same frames."""
+        frames = self.moved(3)
+        frames[1] = [(1.02 * x, y, z) for x, y, z in frames[1]]
+        kinds = {"a.dcd": dcd(frames), "a.trr": trr(frames), "b.trr": trr(frames, "d", velocities=True), "c.trr": trr(frames, extra=(0, 2)),
+                 "a.nc": netcdf(frames), "b.nc": netcdf(frames, 2, "d"), "c.nc": netcdf(frames, 5, scale=0.5), "by another name": netcdf(frames)}
+        areas = {}
+        for name, content in kinds.items():
+            (self.folder / name).write_bytes(content)
+            self.check(0, CRAMBIN, "--surface", "sas", "--trajectory", name, "--frames", "all", "-o", "a.csv", "--force", says="3 frames")
+            areas[name] = [float(row["area"]) for row in self.table()]
+        self.assertGreater(areas["a.dcd"][1], areas["a.dcd"][0] + 10)
+        for name, found in areas.items():
+            for area, expected in zip(found, areas["a.dcd"], strict=True):
+                self.assertAlmostEqual(area, expected, delta=0.01, msg=name)
+        (self.folder / "a.rst7").write_bytes(netcdf(frames[1:2], restart=True, width="d"))
+        self.check(0, CRAMBIN, "--surface", "sas", "--trajectory", "a.rst7", "-o", "a.csv", "--force", says="1 frame")
+        self.assertAlmostEqual(float(self.table()[0]["area"]), areas["a.dcd"][1], delta=0.01)
+
+    def test_damaged_trr_and_netcdf(self):
+        frames = self.moved(2)
+        whole = {"a.trr": trr(frames), "a.nc": netcdf(frames)}
+        for name, content in whole.items():
+            (self.folder / name).write_bytes(content[:-100 if name == "a.trr" else -5000])
+            said = self.check(0, CRAMBIN, *FAST, "--trajectory", name, "--frames", "all", "-o", "a.stl", "--force", says="cut short").stderr
+            self.assertIn(b"1 frame", said)
+            for size in (3, 6, 20, 60, 150, 400, 600):
+                (self.folder / name).write_bytes(content[:size])
+                self.check(1, CRAMBIN, *FAST, "--trajectory", name, "-o", "b.stl", says=f"{name}: ")
+        (self.folder / "a.nc").write_bytes(netcdf(frames).replace(b"coordinates", b"displacemen"))
+        self.check(1, CRAMBIN, *FAST, "--trajectory", "a.nc", "-o", "b.stl", says='expected a variable "coordinates"')
+        (self.folder / "a.trr").write_bytes(trr(frames) + trr([frame[:-1] for frame in frames]))
+        self.check(1, CRAMBIN, *FAST, "--trajectory", "a.trr", "-o", "b.stl", says="frame 3 has 326 atoms, the first one 327")
+
     def test_other_trajectories(self):
         """Refused with the program that converts them."""
-        for name, begin, kind, program in (("a.trr", b"\0\0\7\xc9", "TRR", "gmx trjconv"), ("a.nc", b"CDF\2", "NetCDF", "cpptraj"),
-                                           ("a.h5", b"\x89HDF\r\n\x1a\n", "HDF5", "mdconvert"), ("a.tng", b"\0" * 8, "TNG", "gmx trjconv")):
+        for name, begin, kind, program in (("a.h5", b"\x89HDF\r\n\x1a\n", "HDF5", "mdconvert"), ("a.tng", b"\0" * 8, "TNG", "gmx trjconv")):
             (self.folder / name).write_bytes(begin + bytes(200))
             self.check(1, CRAMBIN, *FAST, "--trajectory", name, "-o", "a.ply",
-                       says=[f"{name}: is a trajectory in {kind}, expected DCD or XTC", f"[hint: {program}" if kind != "HDF5" else program])
+                       says=[f"{name}: is a trajectory in {kind}, expected DCD, XTC, TRR or NetCDF", program])
         (self.folder / "a.nc").write_bytes(dcd(self.moved(2)))
         self.check(0, CRAMBIN, *FAST, "--trajectory", "a.nc", "-o", "a.stl", says="2 frames")
 

@@ -353,7 +353,7 @@ OptionGroup frameOptions()
               "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
               "name.csv: a table of all",
               Build, MOLSURF_OF(frames)),
-         ofFile(text("trajectory", "FILE", ".dcd or .xtc with the frames, its atoms those of INPUT",
+         ofFile(text("trajectory", "FILE", ".dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT",
                      Build, MOLSURF_OF(trajectory))),
          flag("update-selections",
               "selections by distance, as within 5 of resn HEM, are those\n"

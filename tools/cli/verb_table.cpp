@@ -28,7 +28,7 @@ VerbInfo buildVerb()
         "build",
         "INPUT -o FILE [-o FILE ...] [options]",
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .bcif .gro\n"
-        ".psf .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz, or -\n"
+        ".psf .parm7 .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz, or -\n"
         "for standard input): a level set as OpenVDB grid, meshes, pictures, a report.\n"
         "With --frames, one output per frame.",
         "",

@@ -121,5 +121,64 @@ TEST(ReadPsf, NamesTheLineThatIsWrong)
     EXPECT_HAS(errorAs("a.psf", "PSF\n x !NATOM\n"), "line 2: expected the number of atoms");
 }
 
+/// A topology of Amber: a glycine without hydrogens, an ion, and water with an extra point.
+std::string parm7(bool elements)
+{
+    std::string out = "%VERSION  VERSION_STAMP = V0001.000\n%FLAG TITLE\n%FORMAT(20a4)\ndefault_name\n"
+                      "%FLAG POINTERS\n%FORMAT(10I8)\n"
+                      "       8       0       0       0       0       0       0       0       0       0\n"
+                      "       0       3\n"
+                      "%FLAG ATOM_NAME\n%FORMAT(20a4)\nN   CA  C   O   CL- O   H1  EPW \n"
+                      "%FLAG CHARGE\n%COMMENT in units of the electron charge times 18.2223\n"
+                      "%FORMAT(5E16.8)\n -7.57501011E+00  0.00000000E+00  0.00000000E+00  0.00000000E+00"
+                      " -1.82223000E+01\n  0.00000000E+00  9.47559600E+00 -9.47559600E+00\n";
+    if (elements)
+        out += "%FLAG ATOMIC_NUMBER\n%FORMAT(10I8)\n"
+               "       7       6       6       8      17       8       1       0\n";
+    return out + "%FLAG MASS\n%FORMAT(5E16.8)\n  1.40100000E+01  1.20100000E+01  1.20100000E+01"
+                 "  1.60000000E+01  3.54500000E+01\n  1.60000000E+01  1.00800000E+00  0.00000000E+00\n"
+                 "%FLAG RESIDUE_LABEL\n%FORMAT(20a4)\nGLY Cl- WAT \n"
+                 "%FLAG RESIDUE_POINTER\n%FORMAT(10I8)\n       1       5       6\n";
+}
+
+TEST(ReadParm7, ReadsAtomsWithoutPlaces)
+{
+    for (const bool elements : {true, false}) {
+        const Structure s = readAs("a.txt", parm7(elements));
+        EXPECT_EQ(s.format, "parm7");
+        EXPECT_FALSE(s.placed);
+        ASSERT_EQ(s.atoms.size(), 8u);
+        const std::vector<int> expected{7, 6, 6, 8, 17, 8, 1};
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_EQ(s.atoms[i].element, expected[i]) << i;
+        EXPECT_EQ(s.atoms[7].role, AtomRole::Particle);
+        ASSERT_EQ(s.residues.size(), 3u);
+        EXPECT_EQ(s.residues[0].name, "GLY");
+        EXPECT_EQ(s.residues[2].number, 3);
+        EXPECT_TRUE(s.residues[2].water());
+        ASSERT_EQ(s.charges.size(), 8u);
+        EXPECT_NEAR(s.charges[0], -0.4157, 1e-5);
+        EXPECT_NEAR(s.charges[4], -1.0, 1e-6);
+    }
+}
+
+TEST(ReadParm7, NamesTheSectionThatIsWrong)
+{
+    const auto without = [](const std::string& begin, std::size_t count) {
+        std::string text = parm7(true);
+        return text.erase(text.find(begin), count);
+    };
+    EXPECT_HAS(errorAs("a.parm7", "%VERSION\n"), "expected 12 fields of POINTERS, got 0");
+    EXPECT_HAS(errorAs("a.parm7", without("  1.60000000E+01  1.00800000E+00", 49)),
+               "expected 8 fields of MASS, got 5");
+    EXPECT_HAS(errorAs("a.parm7", without("%FLAG RESIDUE_LABEL", 20)), "of RESIDUE_LABEL, got 0");
+    std::string wrong = parm7(true);
+    wrong.replace(wrong.find("1.40100000E+01"), 14, "1.4010000xE+01");
+    EXPECT_HAS(errorAs("a.parm7", wrong), "expected numbers in MASS");
+    wrong = parm7(true);
+    wrong.replace(wrong.find("(5E16.8)"), 8, "(5X16.8)");
+    EXPECT_HAS(errorAs("a.parm7", wrong), "expected a format as (20a4)");
+}
+
 } // namespace
 } // namespace molsurf::test

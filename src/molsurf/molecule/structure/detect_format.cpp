@@ -292,9 +292,6 @@ const Refusal refusals[] = {
      [](const Sample& s) {
          return endsWithOneOf(s, {".dcd", ".xtc", ".trr", ".nc", ".ncdf", ".netcdf", ".h5"});
      }},
-    {"a topology of Amber, which has no coordinates",
-     " [hint: cpptraj or ambpdb makes FILE.pdb or FILE.pqr of it and of its coordinates]",
-     [](const Sample& s) { return s.ends(".prmtop") || s.ends(".parm7") || s.word == "%VERSION"; }},
     {"a topology of CNS, which has no coordinates", "",
      [](const Sample& s) { return s.word == cnsTopology; }},
     {"a file of coordinates of CHARMM, which has no elements",
@@ -370,6 +367,12 @@ const std::vector<StructureFormatRow>& structureFormats()
          [](const Sample& s) { return s.word == "PSF"; },
          readText<readPsf>,
          6.5},
+        {F::Parm7,
+         "parm7",
+         {".parm7", ".prmtop"},
+         [](const Sample& s) { return s.word == "%VERSION"; },
+         readText<readParm7>,
+         12.0},
         {F::Gro, "gro", {".gro"}, isGro, readText<readGro>, 7.5},
         {F::Mmcif,
          "mmCIF",

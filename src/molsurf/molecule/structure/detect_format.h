@@ -20,6 +20,7 @@ enum class StructureFormat {
     Mol2,
     Sdf,
     Psf,
+    Parm7,
     Gro,
     Xyz,
     Pqr,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 namespace molsurf
 {
@@ -127,6 +128,74 @@ AtomLine psfAtom(const LineReader& lines, const std::string& path)
     return atom;
 }
 
+/// The sections of a topology of Amber, each a list of fields of one width.
+class Parm7Sections
+{
+public:
+    Parm7Sections(const std::string& text, const std::string& path) : path_(path)
+    {
+        LineReader lines(text);
+        Section* section = nullptr;
+        while (lines.next()) {
+            const string_view line = lines.line();
+            if (line.substr(0, 5) == "%FLAG") {
+                section = &sections_[std::string(trimmed(line.substr(5)))];
+            } else if (section && line.substr(0, 7) == "%FORMAT") {
+                section->width = widthIn(line, lines);
+            } else if (section && section->width > 0 && line.substr(0, 1) != "%") {
+                for (std::size_t at = 0; at < line.size(); at += section->width)
+                    section->fields.push_back(line.substr(at, section->width));
+            }
+        }
+    }
+
+    bool has(const std::string& name) const { return sections_.count(name) > 0; }
+
+    /// A section's fields, of which there are at least `count`.
+    const std::vector<string_view>& fields(const std::string& name, std::size_t count) const
+    {
+        const auto found = sections_.find(name);
+        const std::size_t size = found == sections_.end() ? 0 : found->second.fields.size();
+        if (size < count)
+            failAt(path_, "expected " + std::to_string(count) + " fields of " + name + ", got " +
+                              std::to_string(size));
+        return found->second.fields;
+    }
+
+    /// The numbers of a section, at least `count`.
+    std::vector<double> numbers(const std::string& name, std::size_t count) const
+    {
+        std::vector<double> out;
+        for (const string_view field : fields(name, count)) {
+            double& value = out.emplace_back();
+            if (!parseNumber(trimmed(field), value))
+                failAt(path_, "expected numbers in " + name + ", got " + inQuotes(field));
+        }
+        return out;
+    }
+
+private:
+    struct Section {
+        std::size_t width = 0;
+        std::vector<string_view> fields;
+    };
+
+    /// The width in "%FORMAT(20a4)", "%FORMAT(5E16.8)" or "%FORMAT(10I8)".
+    std::size_t widthIn(string_view line, const LineReader& lines) const
+    {
+        int width = 0;
+        const std::size_t letter = line.find_first_of("aAEI", line.find('('));
+        const std::size_t end = line.find_first_of(".)", letter);
+        if (letter == string_view::npos || end == string_view::npos ||
+            !parseInteger(line.substr(letter + 1, end - letter - 1), width) || width <= 0)
+            failAtLine(path_, lines, "expected a format as (20a4), got " + inQuotes(line));
+        return std::size_t(width);
+    }
+
+    std::string path_;
+    std::map<std::string, Section> sections_;
+};
+
 } // namespace
 
 Structure readGro(const std::string& text, const std::string& path)
@@ -160,6 +229,45 @@ Structure readPsf(const std::string& text, const std::string& path)
         tree.add(psfAtom(lines, path));
     }
     return tree.finish(false);
+}
+
+Structure readParm7(const std::string& text, const std::string& path)
+{
+    constexpr double perElementaryCharge = 18.2223; // Amber's unit, so that q q / r is in kcal/mol
+    const Parm7Sections sections(text, path);
+    const std::vector<double> pointers = sections.numbers("POINTERS", 12);
+    const double atoms = pointers[0], residues = pointers[11];
+    if (!(atoms >= 1.0 && residues >= 1.0 && std::max(atoms, residues) < 1e9))
+        failAt(path, "expected the numbers of atoms and residues in POINTERS");
+    const auto count = std::size_t(atoms), parts = std::size_t(residues);
+    const std::vector<string_view>& names = sections.fields("ATOM_NAME", count);
+    const std::vector<string_view>& labels = sections.fields("RESIDUE_LABEL", parts);
+    const std::vector<double> begins = sections.numbers("RESIDUE_POINTER", parts),
+                              masses = sections.numbers("MASS", count),
+                              units = sections.numbers("CHARGE", count);
+    std::vector<double> elements;
+    if (sections.has("ATOMIC_NUMBER")) elements = sections.numbers("ATOMIC_NUMBER", count);
+    AtomTree tree;
+    std::vector<float> charges;
+    std::size_t residue = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        while (residue + 1 < parts && begins[residue + 1] <= double(i + 1)) ++residue;
+        AtomLine atom;
+        atom.name = trimmed(names[i]);
+        atom.residue = trimmed(labels[residue]);
+        atom.number = int(residue + 1);
+        atom.serial = int(i + 1);
+        atom.mass = masses[i];
+        if (!elements.empty() && elements[i] > 0.0 && elements[i] < 119.0)
+            atom.element = int(elements[i]);
+        const bool isPoint = elements.empty() ? masses[i] < 0.5 : elements[i] <= 0.0;
+        if (isPoint) atom.role = AtomRole::Particle;
+        charges.push_back(float(units[i] / perElementaryCharge));
+        tree.add(atom);
+    }
+    Structure out = tree.finish(false);
+    out.charges = std::move(charges);
+    return out;
 }
 
 } // namespace molsurf

@@ -95,4 +95,9 @@ Structure readGro(const std::string& text, const std::string& path);
 /// @throws Error(ErrorKind::Input) with the line, if it is not as described
 Structure readPsf(const std::string& text, const std::string& path);
 
+/// Reads the atoms of a topology of Amber (.parm7, .prmtop), whose places are to come from
+/// elsewhere: names, residues numbered from 1, elements and charges; no chains.
+/// @throws Error(ErrorKind::Input) if a section is missing or too short
+Structure readParm7(const std::string& text, const std::string& path);
+
 } // namespace molsurf

@@ -47,24 +47,18 @@ std::vector<openvdb::Vec3f> Trajectory::read(std::size_t frame)
 namespace
 {
 
-/// Refuses a trajectory of another kind with the program that converts it.
-void refuseOtherKinds(const std::string& path)
-{
-    static constexpr struct {
-        std::string_view begin, kind, hint;
-    } kinds[] = {{{"\0\0\7\xc9", 4}, "TRR", " [hint: gmx trjconv writes FILE.xtc]"},
-                 {"CDF", "NetCDF", " [hint: cpptraj writes FILE.dcd]"},
-                 {"\x89HDF\r\n", "HDF5", " [hint: MDAnalysis or mdconvert writes FILE.dcd]"},
-                 {".tng", "TNG", " [hint: gmx trjconv writes FILE.xtc]"}}; // by its name alone
-    char bytes[8] = {};
-    std::ifstream(path, std::ios::binary).read(bytes, sizeof bytes);
-    const std::string_view first(bytes, sizeof bytes), name = path;
-    for (const auto& [begin, kind, hint] : kinds)
-        if (first.substr(0, begin.size()) == begin ||
-            name.substr(name.size() - std::min(name.size(), begin.size())) == begin)
-            failAt(path, "is a trajectory in " + std::string(kind) + ", expected DCD or XTC" +
-                             std::string(hint));
-}
+/// A kind of trajectory, by the first bytes of a file.
+struct TrajectoryKind {
+    std::string_view begin;
+    std::unique_ptr<Trajectory> (*open)(const std::string& path); ///< null: it is refused
+    std::string_view name, hint{};                                ///< for people
+};
+
+constexpr TrajectoryKind kinds[] = {
+    {{"\0\0\7\xc9", 4}, openTrr, "TRR"},
+    {"CDF", openNetcdf, "NetCDF"},
+    {"\x89HDF\r\n", nullptr, "HDF5", " [hint: MDAnalysis or mdconvert writes FILE.dcd]"},
+    {".tng", nullptr, "TNG", " [hint: gmx trjconv writes FILE.xtc]"}}; // by its name alone
 
 } // namespace
 
@@ -72,7 +66,17 @@ std::unique_ptr<Trajectory> openTrajectory(const std::string& path)
 {
     if (readsOnce(path)) failAt(path, "is a pipe or a device, expected a trajectory's file");
     if (XtcFile::recognizes(path)) return std::make_unique<XtcFile>(path);
-    refuseOtherKinds(path);
+    char bytes[8] = {};
+    std::ifstream(path, std::ios::binary).read(bytes, sizeof bytes);
+    const std::string_view first(bytes, sizeof bytes), file = path;
+    for (const auto& [begin, open, name, hint] : kinds) {
+        const bool isNamed =
+            file.size() >= begin.size() && file.substr(file.size() - begin.size()) == begin;
+        if (first.substr(0, begin.size()) != begin && !isNamed) continue;
+        if (open) return open(path);
+        failAt(path, "is a trajectory in " + std::string(name) +
+                         ", expected DCD, XTC, TRR or NetCDF" + std::string(hint));
+    }
     return openDcd(path);
 }
 

@@ -61,8 +61,16 @@ private:
 ///         within a frame. That it holds fewer than its header says is a warning.
 std::unique_ptr<Trajectory> openDcd(const std::string& path);
 
-/// Opens a trajectory, of DCD or an XtcFile, by what the file begins with, not by its name.
-/// @throws Error(ErrorKind::Input) if the file cannot be opened, is neither of them or is cut short
+/// Opens a trajectory in the TRR format of GROMACS.
+/// @throws Error(ErrorKind::Input) as openDcd(); a last frame that is cut short is a warning
+std::unique_ptr<Trajectory> openTrr(const std::string& path);
+
+/// Opens a trajectory in the NetCDF format of Amber, or a restart file, which has one frame.
+/// @throws Error(ErrorKind::Input) as openDcd()
+std::unique_ptr<Trajectory> openNetcdf(const std::string& path);
+
+/// Opens a trajectory by what the file begins with, not by its name.
+/// @throws Error(ErrorKind::Input) if the file cannot be opened, is of no known kind or is cut short
 std::unique_ptr<Trajectory> openTrajectory(const std::string& path);
 
 } // namespace molsurf

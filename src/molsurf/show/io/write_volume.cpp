@@ -112,6 +112,7 @@ void writeMrc(const openvdb::FloatGrid& surface, const Vec3d& origin, OutputFile
     for (int axis = 0; axis < 3; ++axis) {
         const std::size_t a = std::size_t(axis);
         header.put(1 + a, box.size[axis]);
+        header.put(5 + a, std::int32_t(std::lround(box.corner[axis] / box.voxel)));
         header.put(8 + a, box.size[axis]);
         header.put(11 + a, box.size[axis] * box.voxel);
         header.put(14 + a, 90.0);

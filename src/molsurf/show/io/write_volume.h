@@ -13,7 +13,8 @@ namespace molsurf
 
 /// Writes a level set as a map of MRC2014: 32-bit floats in Å, negative inside as in a .vdb, x
 /// fastest, z slowest. The box is that of the band; beyond the band values are those of its rim.
-/// ORIGIN has the place of the first value [Å], and NSTART is 0: some readers add the two.
+/// ORIGIN has the place of the first value [Å], and NSTART the same in voxels, rounded: programs of
+/// crystallography read that one. None that is known adds the two.
 ///
 /// @param[in] surface  with cubic voxels along the axes [Å]
 /// @param[in] origin   the point of space that is 0 in the file [Å]
