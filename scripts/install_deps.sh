@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 
 packages=(
   g++ cmake ninja-build
-  libopenvdb-dev libtbb-dev libimath-dev libblosc-dev
+  libopenvdb-dev libnanovdb-dev libtbb-dev libimath-dev libblosc-dev
   libboost-dev libboost-iostreams-dev libboost-program-options-dev
   gemmi-dev tao-pegtl-dev libstb-dev # gemmi's headers include the other two without saying so
   nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core zlib1g-dev libssl-dev libembree-dev

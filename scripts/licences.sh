@@ -7,7 +7,7 @@ set -euo pipefail
 
 folder=$1
 shift
-compiled_in=(libopenvdb-dev libimath-dev libblosc-dev gemmi-dev tao-pegtl-dev libstb-dev nlohmann-json3-dev
+compiled_in=(libopenvdb-dev libnanovdb-dev libimath-dev libblosc-dev gemmi-dev tao-pegtl-dev libstb-dev nlohmann-json3-dev
              fonts-dejavu-core) # and headers of Boost, whose licence asks for no copy beside what a compiler made of them
 mkdir -p "$folder"
 for package in "${compiled_in[@]}"; do

@@ -340,7 +340,7 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     shown.bodies = bodies;
     shown.drawnBodies = drawn;
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
-    if (!call.writes(Grids | Stage | Volume | Solver)) dropGrids(result);
+    if (!call.writes(anyGrids | Stage | Volume | Solver)) dropGrids(result);
     writeAll(call, balls, result, shown, terminal, start, companions);
     terminal.erase();
     return result.report;

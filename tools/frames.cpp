@@ -152,7 +152,7 @@ void addVelocities(const CommandLine& call, const BallSet& selection,
     const std::string length = call.scene.scale == 1.0 ? "Å" : "scene units";
     const VelocityUnit unit{call.scene.scale * perTime,
                             length + (call.fps > 0.0 ? " per second" : " per frame")};
-    if (call.writes(Grids))
+    if (call.writes(anyGrids))
         result.fields.push_back(
             velocityGrid(*result.surface, selection, displacement, unit, call.options, progress));
     if (call.writes(VertexCurvatures))

@@ -21,6 +21,7 @@
 #include "molsurf/show/io/part_ranges.h"
 #include "molsurf/show/io/write_glb.h"
 #include "molsurf/show/io/write_mesh.h"
+#include "molsurf/show/io/write_nvdb.h"
 #include "molsurf/show/io/write_report.h"
 #include "molsurf/show/io/write_structure.h"
 #include "molsurf/show/io/write_table.h"
@@ -243,6 +244,11 @@ void writeGrids(const Writing& w, OutputFile& file)
     openvdb::MetaMap metadata = vdbMetadata(w.call, w.result.report);
     addLabelMetadata(w.atoms, w.call.options.fields, w.progress, metadata);
     writeVdb(gridsOf(w.call, w.result), metadata, file);
+}
+
+void writeBareGrids(const Writing& w, OutputFile& file)
+{
+    writeNvdb(gridsOf(w.call, w.result), file);
 }
 
 /// Copies that are all alike share the volume; others are in it once, where the input has them.
@@ -525,6 +531,7 @@ const std::vector<Format>& formatTable()
                 ofMesh("poly", meshed),
                 ofMesh("msh", meshed),
                 ofMesh("msh2", meshed),
+                {"nvdb", meshed, heldByNvdb, "level set and fields for GPUs", "", writeBareGrids},
                 {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
                 {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>}},
                {{"cxc", meshed, Script | Colors | Copies, "scripts for .glb and .ply", "",

@@ -18,6 +18,7 @@
 #include "molsurf/show/io/scene.h"
 #include "molsurf/show/io/write_glb.h"
 #include "molsurf/show/io/write_mesh.h"
+#include "molsurf/show/io/write_nvdb.h"
 #include "molsurf/show/io/write_report.h"
 #include "molsurf/show/io/write_vdb.h"
 #include "molsurf/show/picture/draw_mesh.h"
@@ -200,8 +201,9 @@ void drawSurfaceFiles(const std::vector<ShownSurface>& surfaces, const std::stri
     file.commit();
 }
 
+/// @param[in] isBare  as .nvdb
 void writeGrids(const MolecularSurface& surface, const std::string& path, const Scene& scene,
-                bool moved, bool replace)
+                bool moved, bool isBare, bool replace)
 {
     const openvdb::GridPtrVec all = surface.grids();
     if (all.empty()) throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
@@ -209,7 +211,8 @@ void writeGrids(const MolecularSurface& surface, const std::string& path, const 
     openvdb::MetaMap metadata;
     describeScene(scene, metadata);
     OutputFile file(path, replace);
-    writeVdb(scene.known() || moved ? placeInScene(grids, scene) : grids, metadata, file);
+    const openvdb::GridCPtrVec placed = scene.known() || moved ? placeInScene(grids, scene) : grids;
+    isBare ? writeNvdb(placed, file) : writeVdb(placed, metadata, file);
     file.commit();
 }
 
@@ -304,7 +307,7 @@ void writeVdb(const MolecularSurface& surface, const std::string& path, bool rep
         throw Error(ErrorKind::Usage, "scene: expected blender, houdini or usd, perhaps with "
                                       "=SCALE, got " +
                                           inQuotes(scene));
-    writeGrids(surface, path, *place, false, replace);
+    writeGrids(surface, path, *place, false, false, replace);
 }
 
 void writeReport(const Report& report, const std::string& path, bool replace)
@@ -351,10 +354,10 @@ void writeSurface(const std::vector<ShownSurface>& surfaces, const std::string& 
     if (std::count(settings.begin(), settings.end(),
                    std::pair<std::string, std::string>("for", "apbs")))
         return writeSolverFiles(shown, path, lookOf(settings, path, holds::Solver), replace);
-    if (ending == ".vdb") {
-        FileLook look = lookOf(settings, path, holds::heldByVdb);
+    if (const bool isBare = ending == ".nvdb"; isBare || ending == ".vdb") {
+        FileLook look = lookOf(settings, path, isBare ? holds::heldByNvdb : holds::heldByVdb);
         if (look.center) look.scene.center = FileSurface(shown, look).center();
-        return writeGrids(*shown.surface, path, look.scene, look.center, replace);
+        return writeGrids(*shown.surface, path, look.scene, look.center, isBare, replace);
     }
     if (ending == ".json") {
         lookOf(settings, path, holds::Numbers);
@@ -364,7 +367,7 @@ void writeSurface(const std::vector<ShownSurface>& surfaces, const std::string& 
         return writeMeshFile(shown, *format, path, lookOf(settings, path, format->holds), replace);
     throw Error(ErrorKind::Usage, path + ": expected a name that ends in " +
                                       joinWords(meshEndings(), ", ") +
-                                      ", .vdb, .json, .png or .html");
+                                      ", .vdb, .nvdb, .json, .png or .html");
 }
 
 } // namespace molsurf

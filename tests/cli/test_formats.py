@@ -207,6 +207,38 @@ class Formats(ToolTest):
                 self.assertGreater(near, 1000)
         self.check(2, "ball.xyzr", *FAST, "--by-symmetry", "--assembly", "1", "-o", "b.mrc", says="b.mrc")
 
+    def test_maps_become_volumes(self):
+        """The level set of a map of the distance is the surface that the map is of; the fog is where the map is."""
+        self.check(0, CRAMBIN, "--surface", "ses", "-o", "a.mrc", "-o", "a.dx", "-o", "a.ply")
+        (self.folder / "a.map.gz").write_bytes(gzip.compress((self.folder / "a.mrc").read_bytes()))
+        for name in ("a.mrc", "a.dx", "a.map.gz"):
+            self.check(0, "convert", name, "--iso", "-1e-4", "-o", "b.vdb", "-o", "b.nvdb", "--force", says=["points, from -1.5 to 1.5"])
+            self.check(0, "compare", "b.vdb", "a.ply", "-o", "c.json", "--force")
+            self.assertLess(json.loads((self.folder / "c.json").read_text())["hausdorff"], 0.1)
+            self.assertEqual((self.folder / "b.nvdb").read_bytes()[:8], b"NanoVDB0")
+            self.check(0, "convert", name, "-o", "fog.vdb", "--force")
+            said = self.check(0, "info", "fog.vdb").stdout.decode()
+            for word in ("grid density", "fog volume", f"map.least       -1.5"):
+                self.assertIn(word, said)
+        self.assertIn("MiB", self.check(0, "convert", "a.mrc", "--dry-run", "-o", "d.vdb").stderr.decode())
+        self.check(1, "convert", "a.mrc", "--iso", "0.1", "-o", "d.vdb", "--max-hours", "1e-6", says=["hours"])
+        self.check(2, "convert", "a.mrc", "--iso", "7", "-o", "d.vdb", says=["--iso: expected a value between those of the map, -1.5 and 1.5"])
+        self.check(2, "convert", "a.mrc", "-o", "d.ply", says=["d.ply: a map becomes .vdb or .nvdb", "--iso"])
+        self.check(2, "convert", "b.vdb", "--color", "chain", "--iso", "1", "-o", "d.vdb", says=["--iso: expected a map"])
+        (self.folder / "cut.mrc").write_bytes((self.folder / "a.mrc").read_bytes()[:-1])
+        self.check(1, "convert", "cut.mrc", "-o", "d.vdb", says=["cut.mrc: is cut short"])
+        self.check(1, "convert", CRAMBIN, "-o", "d.vdb", "--color", "chain", says=["is neither a .vdb file nor a map"])
+        self.assertNotIn("d.vdb", self.names())
+
+    def test_nvdb_of_a_surface_and_of_a_stored_one(self):
+        self.check(0, CRAMBIN, *FAST, "--fields", "mean_curvature,Cd", "--color", "chain", "-o", "a.nvdb", "-o", "a.vdb")
+        self.check(0, "convert", "a.vdb", "-o", "b.nvdb")
+        self.assertEqual((self.folder / "a.nvdb").read_bytes(), (self.folder / "b.nvdb").read_bytes())
+        self.check(0, CRAMBIN, *FAST, "--for", "blender=nm", "-o", "c.nvdb")
+        data = (self.folder / "c.nvdb").read_bytes()
+        for name in (b"surface", b"density", b"Cd"):
+            self.assertIn(name + b"\0", data)
+
     @needs("maps")
     def test_other_readers_find_the_surface_where_it_is(self):
         """mrcfile and GridDataFormats: the contour at 0 has the area of the surface, and its box."""

@@ -429,6 +429,8 @@ CASES = {
         ("--contacts atom", "vdb_molsurf residue.pdb --contacts residue -o a.contacts.csv",
          "vdb_molsurf residue.pdb --contacts atom -o b.contacts.csv")],
     "tools/convert.cpp": [
+        ("--iso V -o FILE.vdb", f"vdb_molsurf 1crn.pdb {FAST} -o m.mrc; vdb_molsurf convert m.mrc -o a.ply",
+         "vdb_molsurf convert m.mrc --iso -0.1 -o l.vdb", "vdb_molsurf convert l.vdb -o a.ply"),
         ("vdb_molsurf two.xyzr -o FILE makes a surface", "vdb_molsurf convert two.xyzr -o a.ply",
          f"vdb_molsurf two.xyzr {FAST} -o a.ply"),
         ("a surface of a larger --voxel, or a larger --max-hours",

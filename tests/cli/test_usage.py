@@ -96,7 +96,7 @@ class WrongCalls(ToolTest):
         self.check(2, "-help", says="did you mean --help?")
         self.check(1, CRAMBIN, "--memory", "1M", "-o", "a.ply", says=["MiB of memory, --memory is 1 MiB", "[hint: --memory "])
         self.check(1, CRAMBIN, "--trajectory", "none.dcd", "-o", "a.csv", says="none.dcd: cannot be opened: No such file")
-        self.check(1, "convert", CRAMBIN, "-o", "a.ply", says=["is no .vdb file", f"vdb_molsurf {CRAMBIN} -o FILE"])
+        self.check(1, "convert", CRAMBIN, "-o", "a.ply", says=["is neither a .vdb file nor a map", f"vdb_molsurf {CRAMBIN} -o FILE"])
         with zipfile.ZipFile(self.folder / "1crn.zip", "w") as archive:
             archive.write(CRAMBIN)
         self.check(1, "1crn.zip", "-o", "a.ply", says=["zip", "unzip"])

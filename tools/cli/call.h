@@ -125,6 +125,7 @@ struct CommandLine : Settings, PictureSettings, FileSettings {
     std::string superpose;     ///< atoms that lay B on A, panels on the first structure, frames
                                ///< on the first one: "auto" or a selection; empty: nothing moves
     bool updateSelections = false; ///< whether selections by distance are those of each frame
+    std::optional<double> iso;     ///< value of a map at which convert makes a level set
     std::string trajectory;        ///< the file with the frames; empty: models are
     double fps = 0.0;              ///< frames per second; 0: times are in frames
     int firstFrame = 1;            ///< number of the first file of frames

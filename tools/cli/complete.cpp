@@ -242,7 +242,7 @@ void completeSolver(CommandLine& call)
 // print. To be called before completeSurface().
 void completeScene(CommandLine& call)
 {
-    if (call.scene.known() && (call.outputs.empty() || call.writes(Grids))) {
+    if (call.scene.known() && (call.outputs.empty() || call.writes(anyGrids))) {
         for (const char* field : {"density", "Cd"}) {
             // Copies have colours instead of vertices.
             if (field == std::string("Cd") && call.colorsCopies()) continue;
@@ -317,7 +317,7 @@ void warnOfLosses(CommandLine& call)
         !call.writes(Colors))
         call.warnings.push_back("--color: none of the files can hold colours [hint: -o .ply, .glb, "
                                 ".png or .html, for example]");
-    if (!call.has("fields") || call.writes(Grids)) return;
+    if (!call.has("fields") || call.writes(anyGrids)) return;
     std::vector<std::string> lost;
     for (const std::string& field : call.options.fields)
         if (!(call.writes(VertexCurvatures) && findField(field)->atVertices) &&
@@ -509,7 +509,7 @@ void completeCompare(CommandLine& call)
 
 void completeConvert(CommandLine& call)
 {
-    takeInput(call, "convert: expected one .vdb file",
+    takeInput(call, "convert: expected one .vdb file or map",
               " [hint: vdb_molsurf convert surface.vdb -o surface.ply]");
     if (!call.dryRun || !call.paths.empty()) call.outputs = outputsOf(call);
     if (call.turntable > 0) addTurntable(call);

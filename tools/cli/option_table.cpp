@@ -353,15 +353,16 @@ OptionGroup frameOptions()
               "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
               "name.csv: a table of all",
               Build, MOLSURF_OF(frames)),
-         ofFile(text("trajectory", "FILE", ".dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT",
-                     Build, MOLSURF_OF(trajectory))),
+         ofFile(text("trajectory", "FILE",
+                     ".dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT", Build,
+                     MOLSURF_OF(trajectory))),
          flag("update-selections",
               "selections by distance, as within 5 of resn HEM, are those\n"
               "of each frame, and not of the first",
               Build, MOLSURF_OF(updateSelections)),
          count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
                "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
-         shownIn(Grids | VertexCurvatures | Stage | Moving,
+         shownIn(anyGrids | VertexCurvatures | Stage | Moving,
                  with(number("fps", "N",
                              "frames per second, such as 24: velocities of --fields v\n"
                              "are per second; a .usda and a film play at this rate",
@@ -407,6 +408,10 @@ OptionGroup surfaceOptions()
     };
     return {"Surface",
             {setting("surface", structures), setting("voxel", structures), shownIn(Levels, levels),
+             number("iso", "V",
+                    "of a map: the level set where it has this value, negative\n"
+                    "where it has more, or, of V below 0, less; else fog",
+                    "", Convert, -1e30, 1e30, "a number", MOLSURF_OF(iso)),
              setting("blobbiness", structures), setting("fill-cavities", wholes | Compare),
              fileOption("walls", Build), setting("remesh", wholes | Convert),
              setting("density", wholes | Convert), setting("adapt", wholes | Convert),

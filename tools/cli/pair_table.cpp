@@ -4,6 +4,7 @@
 #include "cli/option_table.h"
 
 #include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/selection/scalar_map.h"
 #include "molsurf/show/color/color_table.h"
 #include "molsurf/show/io/output_file.h"
 
@@ -61,7 +62,7 @@ std::vector<Pair> assemblyPairs()
              Excludes,
              {"pockets", "color=pocket", "show=pockets", "pore", "tunnels-from", "frames",
               "trajectory", "memory", "dry-run", "center", "color=potential"}},
-            {holds::Content(Grids | Volume),
+            {holds::Content(anyGrids | Volume),
              Excludes,
              {"by-symmetry"},
              ": it makes no grid of the whole [hint: --memory 8G in its place makes it in bricks]"},
@@ -70,7 +71,7 @@ std::vector<Pair> assemblyPairs()
              {"for"},
              ": the density of a .vdb needs the whole at once [hint: --fields surface,Cd in its "
              "place]",
-             [](const CommandLine& call) { return !call.writes(Grids); }},
+             [](const CommandLine& call) { return !call.writes(anyGrids); }},
             {"by-symmetry",
              Excludes,
              {{Areas, "contacts", ofResidues},
@@ -301,7 +302,9 @@ std::vector<Pair> runPairs()
          Needs,
          {"color"},
          ": without it the file would be a copy",
-         [](const CommandLine& call) { return call.verb != Convert; }}};
+         [](const CommandLine& call) {
+             return call.verb != Convert || pointsOfMap(call.input) > 0;
+         }}};
 }
 
 /// An option, and its value if there is one, as they are typed.

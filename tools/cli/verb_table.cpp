@@ -28,7 +28,8 @@ VerbInfo buildVerb()
         "build",
         "INPUT -o FILE [-o FILE ...] [options]",
         "Builds the molecular surface of the atoms in INPUT (.pdb .ent .cif .mmcif .bcif .gro\n"
-        ".psf .parm7 .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz, or -\n"
+        ".psf .parm7 .sdf .mol .mol2 .pdbqt .xyz .pqr .xyzr .xyzrn, each also .gz, .bz2 or .xz, or "
+        "-\n"
         "for standard input): a level set as OpenVDB grid, meshes, pictures, a report.\n"
         "With --frames, one output per frame.",
         "",
@@ -87,13 +88,16 @@ VerbInfo convertVerb()
 {
     return {Convert,
             "convert",
-            "FILE.vdb -o FILE [-o FILE ...] [options]",
-            "Makes meshes, pictures and other colours of a stored surface.",
+            "FILE -o FILE [-o FILE ...] [options]",
+            "Makes meshes, pictures and other colours of a stored surface, and volumes of maps.",
             "The surface is not computed again. The mesh is that of the grid spline; without this\n"
             "grid a spline is fitted to the grid surface.\n"
-            "The grids atom_id, chain_id and group_id label the vertices.\n",
+            "The grids atom_id, chain_id and group_id label the vertices.\n"
+            "A map (.mrc .map .ccp4 .dx) becomes the fog or level set of a .vdb or .nvdb.\n",
             "",
-            {{"vdb_molsurf convert 1crn.vdb -o 1crn.stl", "a mesh of a stored surface"}},
+            {{"vdb_molsurf convert 1crn.vdb -o 1crn.stl", "a mesh of a stored surface"},
+             {"vdb_molsurf convert emd_1234.map.gz --iso 0.1 -o emd.vdb",
+              "the level set of a map at a value"}},
             completeConvert,
             [](const CommandLine& call, auto start) { return convert(call, start); }};
 }

@@ -90,10 +90,10 @@ const std::vector<FileSetting>& fileSettings()
                                  "optical depth of an Å of fog at density 1 in the program,\n"
                                  "in any unit; without it the values of density are 0 to 1",
                                  ""},
-                                holds::Grids, {1e-6, 1e6, "a number from 1e-6 to 1e6"},
+                                holds::anyGrids, {1e-6, 1e6, "a number from 1e-6 to 1e6"},
                                 MOLSURF_OF(scene.fogDensity)),
         switchRow<FileSettings>("center", "the middle of the surface comes to the origin",
-                                holds::Grids | holds::Triangles | holds::VertexCurvatures,
+                                holds::anyGrids | holds::Triangles | holds::VertexCurvatures,
                                 MOLSURF_OF(center)),
         numberRow<FileSettings>(
             {"print-scale", "S", ".stl, .obj, .wrl, .3mf in mm, S of them per Å", ""},

@@ -28,4 +28,18 @@ struct ScalarMap {
 /// @throws Error(ErrorKind::Input) with the line, if the file is no such map
 ScalarMap readDx(const std::string& path, std::size_t maxBytes = 0);
 
+/// Reads a map of MRC2014 or CCP4: modes 0, 1, 2, 6 and 12 (half floats), either byte order, any
+/// order of the axes. It lies at ORIGIN if that is not 0, else at NSTART, as in ChimeraX.
+/// @throws Error(ErrorKind::Input) if the file is no such map, is cut short, or if its cell is not
+///         rectangular
+ScalarMap readMrc(const std::string& path, std::size_t maxBytes = 0);
+
+/// The points of a map by what the file begins with, unpacked; 0 if it cannot be read, is a pipe or
+/// no map of one of these formats.
+std::size_t pointsOfMap(const std::string& path);
+
+/// Reads a map by its content.
+/// @throws Error(ErrorKind::Input) as these
+ScalarMap readMap(const std::string& path, std::size_t maxBytes = 0);
+
 } // namespace molsurf

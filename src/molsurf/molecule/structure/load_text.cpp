@@ -7,7 +7,9 @@
 
 #include <boost/iostreams/device/array.hpp>
 #include <boost/iostreams/filter/bzip2.hpp>
+#include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filter/lzma.hpp>
+#include <boost/iostreams/filtering_stream.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <boost/iostreams/operations.hpp>
 #include <zlib.h>
@@ -17,6 +19,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <string_view>
@@ -357,6 +360,36 @@ std::string loadSmallText(const std::string& path, std::size_t mostBytes)
     Limit limit(mostBytes);
     limit.isOption = false;
     return unpackedText(readBytes(path, limit), path, limit);
+}
+
+std::string loadUnpacked(const std::string& path, std::size_t maxBytes)
+{
+    const Limit limit(maxBytes);
+    std::string bytes = readBytes(path, limit);
+    checkSize(bytes.size(), limit, path);
+    return unpackAny(std::move(bytes), path, limit);
+}
+
+std::string unpackedBegin(const std::string& path, std::size_t count)
+{
+    namespace io = boost::iostreams;
+    std::ifstream file(path, std::ios::binary);
+    std::string magic(2, '\0');
+    file.read(magic.data(), 2);
+    file.clear();
+    file.seekg(0);
+    std::string out(count, '\0');
+    if (isGzip(magic, 0)) {
+        io::filtering_istream in;
+        in.push(io::gzip_decompressor());
+        in.push(file);
+        in.read(out.data(), std::streamsize(count));
+        out.resize(std::size_t(in.gcount()));
+    } else {
+        file.read(out.data(), std::streamsize(count));
+        out.resize(std::size_t(file.gcount()));
+    }
+    return out;
 }
 
 } // namespace molsurf

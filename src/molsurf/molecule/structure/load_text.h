@@ -36,6 +36,12 @@ std::string unpackedText(std::string bytes, const std::string& path, std::size_t
 /// A text without the byte order mark that it may begin with, in UTF-8.
 std::string withoutMark(std::string text);
 
+/// The same as it is unpacked, byte by byte.
+std::string loadUnpacked(const std::string& path, std::size_t maxBytes = 0);
+
+/// The first bytes of a file, unpacked; fewer if it has no more.
+std::string unpackedBegin(const std::string& path, std::size_t count);
+
 /// The same as it lies on the disk, which may be nothing. From a file or device without an end no
 /// more is read than @a maxBytes and a block.
 std::string loadBytes(const std::string& path, std::size_t maxBytes = 0);

@@ -33,11 +33,14 @@ enum Content : unsigned {
     Solver = 1 << 21,           ///< what APBS reads
     Shares = 1 << 22,           ///< shares of frames, on voxels
     Numbered = 1 << 24,         ///< a file of each pocket
-    Moving = 1 << 23            ///< the pictures of a turntable or of frames in one film
+    Moving = 1 << 23,           ///< the pictures of a turntable or of frames in one film
+    BareGrids = 1 << 25         ///< the level set and its fields without metadata of the run
 };
 
 /// The contents of files that are no meshes, by the ending of their names.
 constexpr unsigned heldByVdb = Grids | Colors | SceneUnits;
+constexpr unsigned heldByNvdb = BareGrids | Colors | SceneUnits;
+constexpr unsigned anyGrids = Grids | BareGrids;
 constexpr unsigned heldByPng = Colors | PlainColor | Copies | Views | Pixels;
 constexpr unsigned heldByHtml = Colors | ColorChoices | PlainColor | Copies | Levels | Views;
 
