@@ -133,6 +133,59 @@ TEST(FindTunnels, FromAtomsTheyBeginInTheRoomBesideThem)
     EXPECT_GE(found.startRadius, 2.5);
 }
 
+/// Balls of 1.5 Å, an Å apart, in a box but for what is hollow.
+template<typename Hollow>
+std::vector<Ball> solid(const Vec3d& low, const Vec3d& high, const Hollow& isHollow)
+{
+    std::vector<Ball> out;
+    for (double x = low[0]; x <= high[0]; ++x)
+        for (double y = low[1]; y <= high[1]; ++y)
+            for (double z = low[2]; z <= high[2]; ++z)
+                if (!isHollow(x, y, z)) out.push_back({{x, y, z}, 1.5, std::int32_t(out.size())});
+    return out;
+}
+
+/// Whether a place is less than `half` from a middle along each axis.
+bool inBox(const Vec3d& x, double half)
+{
+    return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])}) < half;
+}
+
+// A closed room is passed over, though it is nearer.
+TEST(FindTunnels, FromAtomsTheyBeginInARoomWithAWayOut)
+{
+    const auto balls =
+        solid(Vec3d(-14.0, -5.0, -5.0), Vec3d(5.0, 7.0, 5.0), [](auto x, auto y, auto z) {
+            return inBox({x, y, z}, 4.0) || inBox({x + 9.0, y, z}, 3.0) ||
+                   (y > 0.0 && std::max(std::abs(x), std::abs(z)) < 3.0);
+        });
+    const Report::Tunnels found = findTunnels(balls, {Vec3d(-6.6, 0.1, 0.2), false}, usual, quiet);
+    ASSERT_EQ(found.list.size(), 1u);
+    EXPECT_NEAR(found.list[0].narrowest().radius, 1.5, 1e-6);
+    EXPECT_LT((Vec3d(found.start.data())).length(), 4.0);
+}
+
+// R^3 / D^2 decides between rooms, with R no larger than the large probe: a hall of 4.5 Å is 8 Å
+// away, a chamber of 2.5 Å 5 Å. 15.6 / 25 is less than 91 / 64, but more than 2.6^3 / 64.
+TEST(FindTunnels, FromAtomsALargeHallCountsAsALargeProbe)
+{
+    const auto balls =
+        solid(Vec3d(-5.0, -7.0, -7.0), Vec3d(20.0, 8.0, 7.0), [](auto x, auto y, auto z) {
+            const bool inChamber = inBox({x, y, z}, 4.0), inHall = inBox({x - 13.0, y, z}, 6.0);
+            const auto inShaft = [&](double middle) {
+                return y > 0.0 && std::max(std::abs(x - middle), std::abs(z)) < 3.0;
+            };
+            return inChamber || inHall || inShaft(0.0) || inShaft(13.0);
+        });
+    const auto startOf = [&](double probeOut) {
+        const auto found =
+            findTunnels(balls, {Vec3d(5.0, 0.1, 0.2), false}, {0.9, probeOut}, quiet);
+        return found.start[0];
+    };
+    EXPECT_LT(startOf(2.6), 4.0);
+    EXPECT_GT(startOf(5.0), 7.0);
+}
+
 void expectError(const std::vector<Ball>& balls, const BallSet::PoreWay::End& from,
                  const TunnelOptions& options, const char* text)
 {
@@ -153,6 +206,9 @@ TEST(FindTunnels, WhereThereAreNone)
     expectError(open, {Vec3d(0.0, 0.0, -5.5), true}, usual, "a ball of 0.9 Å fits");
     expectError(open, {Vec3d(0.0, 0.0, -20.0), true}, usual, "reaches from outside");
     expectError(open, {Vec3d(0.1, 0.2, 0.1), true}, {0.9, 2.4}, "reaches from outside");
+    expectError(open, {Vec3d(0.0, 0.0, -20.0), false}, usual, "reaches from outside");
+    expectError(closed.balls(), {Vec3d(-5.0, 0.0, 0.0), false}, usual, "found none");
+    expectError(open, {Vec3d(-5.0, 0.0, 0.0), false}, {3.0, 4.0}, "a ball of 3 Å fits");
 }
 
 } // namespace
