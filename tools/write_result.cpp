@@ -287,7 +287,7 @@ void writePage(const Writing& w, OutputFile& file)
         {w.mesh, pageOf(drawnOf(w), title, w.shown.about, w.progress)}};
     layers[0].page.name = firstName(call);
     layers[0].page.coarser = w.coarser;
-    if (call.showsPockets()) layers[0].page.bodies = w.shown.drawnBodies.get();
+    layers[0].page.bodies = w.shown.drawnBodies.get();
     if (w.shown.about.empty())
         layers[0].page.about = aboutPage(w.result.report.surface.kind, call.options.voxel);
     const std::vector<PanelSurface> none;

@@ -231,6 +231,18 @@ class Page(ToolTest):
         self.assertNotIn(b"lighter", done.stderr)
 
     @needs("chromium")
+    def test_tunnels_are_tubes(self):
+        page = self.page(DATA / "1grm.pdb.gz", "--tunnels-from", "resid 1", "--surface", "ses", "--voxel", 1, "--color", "element")
+        bodies = json.loads(element(page, "header"))["bodies"]
+        self.assertEqual(len(bodies["parts"]), 2)
+        self.assertEqual({entry["title"] for entry in bodies["entries"]}, {"Tunnels"})
+        self.assertEqual([entry["name"] for entry in bodies["entries"]], ["1.15 to 2.3 Å"])
+        with self.opened((1000, 700)) as browser:
+            self.ready(browser)
+            headings = browser.evaluate("[...document.querySelectorAll('#legend h2')].map((h) => h.textContent)")
+            self.assertEqual(headings, ["Element", "Tunnels"])
+
+    @needs("chromium")
     def test_a_residue_is_turned_into_sight(self):
         """Whatever side it is on: Enter turns to it, and its line is in the panel without scrolling."""
         self.page(DATA / "4at1.ent.gz", "--voxel", "1", "--color", "chain", "--show", "pockets")

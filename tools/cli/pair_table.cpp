@@ -196,7 +196,7 @@ std::vector<Pair> surfacePairs()
              {"color", "show"},
              "",
              [](const CommandLine& call) {
-                 return (call.verb & (Convert | Compare)) != 0 ||
+                 return (call.verb & (Convert | Compare)) != 0 || !call.atoms.tunnelsFrom.empty() ||
                         call.options.color != ColorBy::Nothing; // --for chooses colours
              }},
             {"all-walls", IsFor, {"opacity"}},

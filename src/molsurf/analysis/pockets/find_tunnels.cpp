@@ -177,6 +177,7 @@ Report::Tunnels findTunnels(const std::vector<Ball>& balls, const BallSet::PoreW
     out.list.resize(ways.size());
     parallelFor(ways.size(), progress,
                 [&](std::size_t i) { out.list[i] = tunnelOf(clearance, ways[i]); });
+    for (std::size_t i = 0; i < out.list.size(); ++i) out.list[i].number = i + 1;
     out.start = out.list.front().stations.front().place;
     out.startRadius = out.list.front().stations.front().radius;
     return out;
