@@ -8,7 +8,7 @@ _vdb_molsurf()
         help|build|batch|compare|convert|bricks|info) verb=${COMP_WORDS[1]} ;;
     esac
     case $verb:$before in
-        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png legend.svg view pockets.vdb atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv pore.csv forces.csv pore.svg pore.png pore.ply pore.obj pore.glb tunnels.csv tunnels.ply tunnels.obj tunnels.glb tunnels.pdb tunnels.cif tunnels.cxc tunnels.pml pockets.ply pockets.obj pockets.stl pockets.off pockets.vtk pockets.glb pdb cif residues.pdb residues.cif" ;;
+        "build":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 mrc dx dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png legend.svg view atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv pore.csv tunnels.csv forces.csv pore.svg pore.png pore.ply pore.obj pore.glb tunnels.ply tunnels.obj tunnels.glb tunnels.pdb tunnels.cif tunnels.cxc tunnels.pml pockets.ply pockets.obj pockets.stl pockets.off pockets.vtk pockets.glb pdb cif residues.pdb residues.cif" ;;
         "build":--superpose) words="auto" ;;
         "build":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "build":--walls) words="all outer cavities" ;;

@@ -7,7 +7,7 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'pockets.vdb' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'tunnels.csv' 'tunnels.ply' 'tunnels.obj' 'tunnels.glb' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'tunnels.ply' 'tunnels.obj' 'tunnels.glb' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--superpose") compadd -- 'auto'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
@@ -158,7 +158,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--pocket-cut:pockets begin so far below the surface of that probe [Å]'
       '--pocket-neck:two pockets, where the ball that passes between them has'
       '--pore:the pore, for the report, .pore.csv, profiles .pore.svg,'
-      '--tunnels-from:the ways out of a place, for the report, .tunnels.csv, and'
+      '--tunnels-from:the ways out of a place, for the report, pictures and pages,'
       '--tunnel-probe:tunnels are at least as wide as a ball of this radius [Å],'
       '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
@@ -267,7 +267,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--pocket-cut:pockets begin so far below the surface of that probe [Å]'
       '--pocket-neck:two pockets, where the ball that passes between them has'
       '--pore:the pore, for the report, .pore.csv, profiles .pore.svg,'
-      '--tunnels-from:the ways out of a place, for the report, .tunnels.csv, and'
+      '--tunnels-from:the ways out of a place, for the report, pictures and pages,'
       '--tunnel-probe:tunnels are at least as wide as a ball of this radius [Å],'
       '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
