@@ -25,13 +25,14 @@ using openvdb::Vec3d;
 using Station = Report::Pore::Station;
 
 /// The room of a site, whose atoms may fill their middle x: of the rooms from which the small probe
-/// gets out, and which the large one does not reach, that with the largest R^3 / |x - c|^2. c is
-/// the middle of its ball and R the radius, at most that of the large probe: a mass would pull at x
-/// so if it filled the ball. If the small probe gets out of none, it is the same of all; none:
-/// there is no room.
+/// gets out, and which the large one does not reach, that with the largest R^2 / (|x - c|^2 + P^2),
+/// the share of the view that its ball has from a place beside x by the radius P of the large
+/// probe. c is the centre of the ball and R its radius, at most P. If the small probe gets out of
+/// none, it is the same of all; none: there is no room.
 ///
-/// measured: bench/tunnel_starts.py; so it is as often at the ligand as by a distance with a limit
-/// and a price of 0.2 Å for each Å, and twice as often as by the steepest way up from x.
+/// measured, bench/tunnel_starts.py with the tests of PLIP: of sites of one, two and three residues
+/// 67, 81 and 84 % begin at the ligand, by the steepest way up from x 21, 47 and 61 %, in the
+/// widest room within 12 Å less 0.2 Å for each Å 65, 77 and 81 %.
 std::int32_t roomBeside(const VoidGraph& graph, const Rooms& rooms, const Vec3d& x, double most,
                         const DepthAt& depth)
 {
@@ -41,7 +42,7 @@ std::int32_t roomBeside(const VoidGraph& graph, const Rooms& rooms, const Vec3d&
     const std::uint32_t outside = open.find(VoidGraph::outside);
     struct Candidate {
         bool leadsOut;
-        double pull;
+        double view;
         std::int32_t node;
     };
     std::vector<Candidate> all;
@@ -50,10 +51,10 @@ std::int32_t roomBeside(const VoidGraph& graph, const Rooms& rooms, const Vec3d&
         const VoidGraph::Node& node = graph.nodes[std::size_t(n)];
         const double radius = std::min(node.clearance, most);
         all.push_back({open.find(std::uint32_t(n)) == outside,
-                       radius * radius * radius / (node.place - x).lengthSqr(), n});
+                       radius * radius / ((node.place - x).lengthSqr() + most * most), n});
     }
     std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-        return std::pair(a.leadsOut, a.pull) > std::pair(b.leadsOut, b.pull);
+        return std::pair(a.leadsOut, a.view) > std::pair(b.leadsOut, b.view);
     });
     for (const Candidate& one : all) {
         const VoidGraph::Node& node = graph.nodes[std::size_t(one.node)];
