@@ -181,6 +181,24 @@ TEST(FindTunnels, AWayThroughTheMouthOfAnotherIsNone)
     EXPECT_GT(found.list[0].stations.back().place[1], 7.0);
 }
 
+// Two shafts, 5 Å apart, lead into a groove which the large probe enters by the upper half, so that
+// its centres there are 5 Å apart, too: the balls at the ends, of 2.8 Å, overlap.
+TEST(FindTunnels, MouthsWhoseBallsOverlapAreOne)
+{
+    const auto balls =
+        solid(Vec3d(-9.0, -7.0, -6.0), Vec3d(9.0, 6.0, 6.0), [](auto x, auto y, auto z) {
+            const auto within = [&](double halfX, double low, double high, double halfZ) {
+                return std::abs(x) < halfX && low < y && y < high && std::abs(z) < halfZ;
+            };
+            return within(5.0, -6.0, -1.0, 4.0) || within(7.0, 1.0, 7.0, 5.0) ||
+                   (within(5.0, -2.0, 2.0, 3.0) && x != 0.0);
+        });
+    const Report::Tunnels found = findTunnels(balls, {Vec3d(0.1, -3.5, 0.1), true}, usual, quiet);
+    ASSERT_EQ(found.list.size(), 1u);
+    EXPECT_NEAR(std::abs(found.list[0].stations.back().place[0]), 2.5, 0.1);
+    EXPECT_GT(found.list[0].stations.back().radius, 2.5);
+}
+
 // A closed room is passed over, though it is nearer.
 TEST(FindTunnels, FromAtomsTheyBeginInARoomWithAWayOut)
 {
@@ -195,9 +213,10 @@ TEST(FindTunnels, FromAtomsTheyBeginInARoomWithAWayOut)
     EXPECT_LT((Vec3d(found.start.data())).length(), 4.0);
 }
 
-// R^2 / (D^2 + P^2) decides between rooms, with R at most P: a hall of 4.5 Å is 8 Å away, a chamber
-// of 2.5 Å 5 Å. With P = 2.6 Å the chamber has 0.20, the hall 0.10, as 2.6 Å count; with P = 5 Å
-// they have 0.13 and 0.23.
+// R^2 / (D^2 + P^2) decides between rooms, with R at most P. The middles of a chamber of 2.5 Å and
+// of a hall of 4.5 Å are 13 Å apart. 5 Å from the chamber it has 0.20 with P = 2.6 Å, the hall
+// 0.10, as 2.6 Å count; with P = 4.6 Å they have 0.14 and 0.24. At 3.5 Å the chamber has 0.19, the
+// hall 0.18.
 TEST(FindTunnels, FromAtomsALargeHallCountsAsALargeProbe)
 {
     const auto balls =
@@ -208,13 +227,12 @@ TEST(FindTunnels, FromAtomsALargeHallCountsAsALargeProbe)
             };
             return inChamber || inHall || inShaft(0.0) || inShaft(13.0);
         });
-    const auto startOf = [&](double probeOut) {
-        const auto found =
-            findTunnels(balls, {Vec3d(5.0, 0.1, 0.2), false}, {0.9, probeOut}, quiet);
-        return found.start[0];
+    const auto startOf = [&](double x, double probeOut) {
+        return findTunnels(balls, {Vec3d(x, 0.1, 0.2), false}, {0.9, probeOut}, quiet).start[0];
     };
-    EXPECT_LT(startOf(2.6), 4.0);
-    EXPECT_GT(startOf(5.0), 7.0);
+    EXPECT_LT(startOf(5.0, 2.6), 4.0);
+    EXPECT_GT(startOf(5.0, 4.6), 7.0);
+    EXPECT_LT(startOf(3.5, 4.6), 4.0);
 }
 
 void expectError(const std::vector<Ball>& balls, const BallSet::PoreWay::End& from,

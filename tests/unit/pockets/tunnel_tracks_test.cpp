@@ -104,9 +104,9 @@ TEST(TunnelTracks, TheNearestOfTwoIsTheSame)
     const Tunnel far = rings.tunnel(0, Vec3d(0.0, 0.0, 3.0)),
                  near = rings.tunnel(0, Vec3d(0.0, 0.0, -1.0));
     EXPECT_EQ(numbersOf(tracks, rings.atoms(), 2, {far, near}), (Numbers{2, 1}));
-    // both are followed from where they were last
-    EXPECT_EQ(numbersOf(tracks, rings.atoms(), 3, {rings.tunnel(0, Vec3d(0.0, 0.0, 4.0))}),
-              (Numbers{2}));
+    // it is followed from where it was last: 3.5 Å from there, 4.5 Å from where it was first
+    EXPECT_EQ(numbersOf(tracks, rings.atoms(), 3, {rings.tunnel(0, Vec3d(0.0, 0.0, -4.5))}),
+              (Numbers{1}));
 }
 
 // Selections by distance may have other atoms in another frame.
