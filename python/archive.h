@@ -251,7 +251,7 @@ MOLSURF_MEMBERS(Report::Pore::Station, v.place, v.normal, v.distance, v.radius, 
                 v.lining)
 MOLSURF_MEMBERS(Report::Pore::Way, v.radius, v.place)
 MOLSURF_MEMBERS(Report::Pore, v.axis, v.stations, v.crossed, v.bundle, v.others)
-MOLSURF_MEMBERS(Report::Tunnels::Tunnel, v.stations)
+MOLSURF_MEMBERS(Report::Tunnels::Tunnel, v.number, v.stations)
 MOLSURF_MEMBERS(Report::Tunnels, v.start, v.startRadius, v.probe, v.probeOut, v.list)
 MOLSURF_MEMBERS(Report::Resolution, v.select, v.resolution, v.atoms, v.level)
 MOLSURF_MEMBERS(Report::Part, v.name, v.atoms, v.surface)

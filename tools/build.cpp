@@ -75,9 +75,9 @@ void completeReport(const CommandLine& call, const BallSet& balls, const Report&
 
 bool seesBehind(const CommandLine& call)
 {
-    const bool throughBodies = call.showsPockets() && !call.shows.empty();
-    return throughBodies ||
-           (call.picture.opacity < 1.0 && (call.picture.allWalls || call.showsPockets()));
+    const bool showsBodies = call.showsPockets() || !call.atoms.tunnelsFrom.empty();
+    const bool throughBodies = showsBodies && !call.shows.empty();
+    return throughBodies || (call.picture.opacity < 1.0 && (call.picture.allWalls || showsBodies));
 }
 
 RunLimits limitsOf(const CommandLine& call)
@@ -174,9 +174,15 @@ void dropGrids(MolecularSurface& result)
     malloc_trim(0); // fields leave pieces of memory
 }
 
-// The middle of the mesh's box comes to the origin, with what pictures show beside it; grids and
-// other atoms follow when they are written.
-void centerMesh(CommandLine& call, MolecularSurface& result)
+// Moves points by a shift.
+void shiftBack(const openvdb::Vec3d& shift, std::vector<openvdb::Vec3f>& points)
+{
+    for (openvdb::Vec3f& x : points) x = openvdb::Vec3f(openvdb::Vec3d(x) - shift);
+}
+
+// The middle of the mesh's box comes to the origin, with what pictures and pages show beside it;
+// grids and other atoms follow when they are written.
+void centerMesh(CommandLine& call, MolecularSurface& result, Mesh& bodies)
 {
     const openvdb::Vec3d center =
         moveToOrigin(result.mesh, call.frame > 0 ? &call.scene.center : nullptr);
@@ -187,10 +193,10 @@ void centerMesh(CommandLine& call, MolecularSurface& result)
     if (call.picture.model) {
         auto model = std::make_shared<AtomModel>(*call.picture.model);
         for (MeshInstance& thing : model->instances) thing.translation -= center;
-        for (openvdb::Vec3f& x : model->bodies.positions)
-            x = openvdb::Vec3f(openvdb::Vec3d(x) - center);
+        shiftBack(center, model->bodies.mesh.positions);
         call.picture.model = model;
     }
+    shiftBack(center, bodies.positions);
     call.scene.center = center;
     result.report.center = {center[0], center[1], center[2]};
 }
@@ -323,18 +329,18 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) printLine("warning: " + warning);
     completeReport(call, balls, read, result.report);
+    if (extend) extend(result);
     for (const std::string& table : call.areas)
         result.report.tables.push_back(areaTable(table, call, balls, result));
-    if (extend) extend(result);
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
     for (const auto& grid : result.grids()) grid->setCreator(creator);
 
     const auto bodies = std::make_shared<Mesh>(takeBodies(call, terminal, result));
     if (call.writes(Numbered)) numberOutputs(result.report.pockets->list.size(), call);
-    const auto drawn = std::make_shared<Mesh>();
-    if (call.showsPockets()) *drawn = drawnBodies(call, balls, *bodies, result.mesh, terminal);
+    const auto drawn =
+        std::make_shared<Bodies>(drawnBodies(call, balls, *bodies, result, terminal));
     showBodies(*drawn, call.picture);
-    if (call.center) centerMesh(call, result);
+    if (call.center) centerMesh(call, result, drawn->mesh);
     if (!call.panels.empty()) makePanels(call, balls, result.mesh, terminal);
     ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
     shown.bodies = bodies;

@@ -18,6 +18,7 @@
 #include "molsurf/show/picture/write_html.h"
 #include "molsurf/surface/pockets.h"
 #include "molsurf/surface/run.h"
+#include "molsurf/surface/tunnels.h"
 
 #include <algorithm>
 #include <functional>
@@ -32,12 +33,24 @@ openvdb::Vec3d originOf(const CommandLine& call)
     return call.center ? call.scene.center : openvdb::Vec3d(0.0);
 }
 
-Mesh drawnBodies(const CommandLine& call, const BallSet& atoms, const Mesh& bodies,
-                 const Mesh& surface, Terminal& terminal)
+namespace
 {
-    const std::vector<PartRange> parts = partRanges(bodies, "");
+
+void addTubes(const Report::Tunnels& tunnels, Bodies& bodies)
+{
+    const Mesh tubes = tunnelTubes(tunnels);
+    for (const PartRange& part : partRanges(tubes, "")) appendPart(tubes, part, bodies.mesh);
+    bodies.tunnels = tubeLegend(tubes);
+}
+
+} // namespace
+
+Bodies drawnBodies(const CommandLine& call, const BallSet& atoms, const Mesh& pockets,
+                   const MolecularSurface& surface, Terminal& terminal)
+{
+    const std::vector<PartRange> parts = partRanges(pockets, "");
     const std::size_t count =
-        std::min(call.shownPockets, bodies.triangles.empty() ? 0 : parts.size());
+        std::min(call.shownPockets, pockets.triangles.empty() ? 0 : parts.size());
     if (count < parts.size() && count > 0 && !call.quiet && call.writes(Pixels | ColorChoices)) {
         terminal.erase();
         printLine(formatted("pictures show the %d largest of %d pockets [hint: --show pockets=all]",
@@ -45,28 +58,32 @@ Mesh drawnBodies(const CommandLine& call, const BallSet& atoms, const Mesh& bodi
     }
     std::vector<Color> used; // by the surface and the atoms beside it
     const ColorBy by = call.options.color;
-    if (const auto legend = legendOf(by, atoms, surface, terminal); legend && by != ColorBy::Pocket)
+    if (const auto legend = count > 0 ? legendOf(by, atoms, surface.mesh, terminal) : std::nullopt;
+        legend && by != ColorBy::Pocket)
         for (const LegendEntry& entry : legend->entries) used.push_back(entry.color);
     if (call.picture.model)
         for (const auto* entries : {&call.picture.model->chains, &call.picture.model->elements})
             for (const LegendEntry& entry : *entries) used.push_back(entry.color);
-    Mesh drawn;
+    Bodies drawn;
     for (std::size_t p = 0, number = 1; p < count; ++p, ++number) {
         Color color = pocketColor(number);
         for (std::size_t tried = 0; tried < mostDistinct; ++tried) {
             if (std::count(used.begin(), used.end(), color) == 0) break;
             color = pocketColor(++number);
         }
-        appendPart(bodies, parts[p], drawn);
-        std::fill(drawn.colors.end() - std::ptrdiff_t(parts[p].vertexEnd - parts[p].firstVertex),
-                  drawn.colors.end(), color);
+        appendPart(pockets, parts[p], drawn.mesh);
+        std::vector<Color>& colors = drawn.mesh.colors;
+        std::fill(colors.end() - std::ptrdiff_t(parts[p].vertexEnd - parts[p].firstVertex),
+                  colors.end(), color);
+        drawn.pockets.push_back({parts[p].name, color});
     }
+    if (surface.report.tunnels) addTubes(*surface.report.tunnels, drawn);
     return drawn;
 }
 
-void showBodies(const Mesh& bodies, DrawOptions& picture)
+void showBodies(const Bodies& bodies, DrawOptions& picture)
 {
-    if (bodies.triangles.empty()) return;
+    if (bodies.mesh.triangles.empty()) return;
     const auto model =
         picture.model ? std::make_shared<AtomModel>(*picture.model) : std::make_shared<AtomModel>();
     addBodies(bodies, *model);

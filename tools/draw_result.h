@@ -40,13 +40,13 @@ std::string firstName(const CommandLine& call);
 openvdb::Vec3d originOf(const CommandLine& call);
 
 /// The bodies of the largest pockets, as many as the call shows, in colours that neither the
-/// surface nor the atoms have. Says how many are left out.
-/// @param[in] bodies  of all pockets, the largest first
-Mesh drawnBodies(const CommandLine& call, const BallSet& atoms, const Mesh& bodies,
-                 const Mesh& surface, Terminal& terminal);
+/// surface nor the atoms have, and the tubes of tunnels. Says how many pockets are left out.
+/// @param[in] pockets  bodies of all, the largest first
+Bodies drawnBodies(const CommandLine& call, const BallSet& atoms, const Mesh& pockets,
+                   const MolecularSurface& surface, Terminal& terminal);
 
 /// Shows bodies among the atoms of a picture.
-void showBodies(const Mesh& bodies, DrawOptions& picture);
+void showBodies(const Bodies& bodies, DrawOptions& picture);
 
 /// The values at the ends of the colours; none: they are no values.
 std::optional<std::array<double, 2>> rangeOf(const CommandLine& call, const BallSet& atoms,

@@ -10,6 +10,7 @@
 #include "sidecar.h"
 #include "write_result.h"
 
+#include "molsurf/analysis/measures/tunnel_tracks.h"
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/pipeline/surface_kind.h"
@@ -37,10 +38,34 @@ namespace molsurf::tool
 namespace
 {
 
-/// Whether a file is of a pore.
-bool ofPore(const Output& output)
+/// Products that a frame may not have.
+struct Passing {
+    const char *option, *table; ///< with the errors, and the files, that are of it
+    const char* text;           ///< "no pore"
+};
+constexpr std::array<Passing, 2> passings = {
+    {{"`pore`: ", "pore", "no pore"}, {"`tunnelsFrom`: ", "tunnels", "no tunnels"}}};
+
+/// Whether a file is the table of tunnels over all frames.
+bool ofTracks(const Output& output)
 {
-    return std::string(output.format->table) == "pore";
+    return std::string(output.format->table) == "tunnel_frames";
+}
+
+/// A line on tunnels over frames.
+std::string tracksLine(const TunnelTracks& tracks)
+{
+    const auto& all = tracks.tracks();
+    const auto most = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.open.size() < b.open.size();
+    });
+    const auto [least, widest] =
+        std::minmax_element(most->open.begin(), most->open.end(),
+                            [](const auto& a, const auto& b) { return a.radius < b.radius; });
+    return formatted("tunnels: %zu in all; the most often open: number %zu, in %zu of %zu frames, "
+                     "%.3f to %.3f Å wide, mean %.3f Å",
+                     all.size(), std::size_t(most - all.begin()) + 1, most->open.size(),
+                     tracks.frames(), least->radius, widest->radius, most->meanRadius());
 }
 
 // The call of one frame: "name.vdb" becomes "name.0001.vdb".
@@ -250,7 +275,7 @@ public:
         }
         for (std::size_t i = 0; i < source_.size(); ++i) {
             calls_.push_back(callOf(call_, fileOf(i), source_.number(i)));
-            done_.push_back(!call_.force && areas_.empty() && films_.empty() && !share_.isAsked() &&
+            done_.push_back(!call_.force && !isOfAllFrames() &&
                             isDone(calls_[i], options_, table_, tableName_, fileOf(i)));
             if (done_[i]) continue;
             for (const Output& output : calls_[i].outputs) checkOutput(call_, output);
@@ -292,7 +317,10 @@ public:
     int finish(Clock::time_point start)
     {
         OutputFiles files;
-        for (auto& [output, file] : areas_) files.push_back(std::move(file));
+        for (auto& [output, file] : areas_) {
+            if (ofTracks(output)) writeCsv(tracks_.table(), *file);
+            files.push_back(std::move(file));
+        }
         if (share_.isAsked()) {
             openvdb::MetaMap metadata = vdbMetadata(call_, lastReport_);
             for (const char* ofFrame : {"area", "volume"}) metadata.removeMeta(ofFrame);
@@ -307,8 +335,11 @@ public:
             printLine(counted(size(), "frame", "frames") +
                       formatted(", %.2f s", secondsSince(start)));
         }
-        if (!closed_.empty())
-            printLine("no pore in frames " + joinWords(closed_, ", ") + " [" + whyClosed_ + "]");
+        if (!tracks_.tracks().empty() && !call_.quiet) printLine(tracksLine(tracks_));
+        for (std::size_t k = 0; k < passings.size(); ++k)
+            if (!closed_[k].empty())
+                printLine(std::string(passings[k].text) + " in frames " +
+                          joinWords(closed_[k], ", ") + " [" + whyClosed_[k] + "]");
         if (creeping_ == 0) return 0;
         printLine("not converged: " + counted(creeping_, "frame", "frames") +
                   "; the files are written [hint: a larger --tolerance or a smaller --voxel]");
@@ -316,6 +347,13 @@ public:
     }
 
 private:
+    /// Whether a frame cannot be left out, since something is of all of them.
+    bool isOfAllFrames() const
+    {
+        return !areas_.empty() || !films_.empty() || share_.isAsked() ||
+               !call_.atoms.tunnelsFrom.empty(); // whose numbers follow from the frames before
+    }
+
     /// The number in the names of the files of frame i.
     std::size_t fileOf(std::size_t i) const { return std::size_t(call_.firstFrame) + i; }
 
@@ -378,18 +416,29 @@ private:
         if (!range_ && call_.writes(Views)) range_ = rangeOf(call_, balls, result.mesh, terminal_);
     }
 
-    /// Drops the pore of a frame that has none, with the files that are only of it.
+    /// Drops the pore, or the tunnels, of a frame that has none, with the files that are only of
+    /// it.
     bool goesOnWithout(const Error& error, std::size_t i, BallSet& balls)
     {
         const std::string text = error.what();
-        if (!balls.pore || error.kind() != ErrorKind::Input || text.rfind("`pore`: ", 0) != 0)
-            return false;
-        balls.pore.reset();
-        if (closed_.empty()) whyClosed_ = text.substr(0, text.find(" [")); // without its hint
-        closed_.push_back(std::to_string(source_.number(i)));
-        if (closed_.size() == size()) throw error; // none has one
+        const auto passing = std::find_if(passings.begin(), passings.end(), [&](const Passing& p) {
+            return text.rfind(p.option, 0) == 0;
+        });
+        if (error.kind() != ErrorKind::Input || passing == passings.end()) return false;
+        const auto k = std::size_t(passing - passings.begin());
+        if (k == 0)
+            balls.pore.reset();
+        else
+            balls.tunnelsFrom.reset();
+        if (closed_[k].empty()) whyClosed_[k] = text.substr(0, text.find(" [")); // without its hint
+        closed_[k].push_back(std::to_string(source_.number(i)));
+        if (closed_[k].size() == size()) throw error; // none has one
         std::vector<Output>& outputs = calls_[i].outputs;
-        outputs.erase(std::remove_if(outputs.begin(), outputs.end(), ofPore), outputs.end());
+        outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
+                                     [&](const Output& output) {
+                                         return output.format->table == std::string(passing->table);
+                                     }),
+                      outputs.end());
         return true;
     }
 
@@ -418,9 +467,15 @@ private:
         read.seconds = {{"read", secondsSince(start)}};
         const auto extend = [&](MolecularSurface& result) {
             keepOneRange(balls, result);
+            if (!call_.atoms.tunnelsFrom.empty()) {
+                Report::Tunnels none;
+                auto& tunnels = result.report.tunnels;
+                tracks_.add(balls, source_.number(i), tunnels ? *tunnels : none);
+            }
             if (moves_) addVelocities(call_, balls, displacement, terminal_, result);
             if (share_.isAsked()) share_.add(result);
             for (auto& [output, file] : areas_) {
+                if (ofTracks(output)) continue;
                 Table rows = areaTable(output.format->table, call_, balls, result);
                 appendCsv(rows, source_.number(i), i == 0, *file);
             }
@@ -433,11 +488,13 @@ private:
             writeFrameTable(table_, *files.back());
         };
         Report report;
-        try {
-            report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
-        } catch (const Error& error) {
-            if (!goesOnWithout(error, i, balls)) throw;
-            report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
+        for (bool isMade = false; !isMade;) {
+            try {
+                report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
+                isMade = true;
+            } catch (const Error& error) {
+                if (!goesOnWithout(error, i, balls)) throw;
+            }
         }
         lastReport_ = report;
         creeping_ += !row.rests;
@@ -469,10 +526,11 @@ private:
     std::vector<CommandLine> calls_;
     std::vector<bool> done_;
     std::size_t creeping_ = 0;
-    std::vector<std::string> closed_; // frames without a pore
-    std::string whyClosed_;           // the first of them
-    std::optional<int> euler_;        // of the frame before
-    std::string changes_;             // of the topology: frames
+    TunnelTracks tracks_;
+    std::array<std::vector<std::string>, passings.size()> closed_; // frames without them
+    std::array<std::string, passings.size()> whyClosed_;           // the first of each
+    std::optional<int> euler_;                                     // of the frame before
+    std::string changes_;                                          // of the topology: frames
 };
 
 } // namespace

@@ -293,7 +293,7 @@ void writePage(const Writing& w, OutputFile& file)
         {w.mesh, pageOf(drawnOf(w), title, w.shown.about, w.progress)}};
     layers[0].page.name = firstName(call);
     layers[0].page.coarser = w.coarser;
-    if (call.showsPockets()) layers[0].page.bodies = w.shown.drawnBodies.get();
+    layers[0].page.bodies = w.shown.drawnBodies.get();
     if (w.shown.about.empty())
         layers[0].page.about = aboutPage(w.result.report.surface.kind, call.options.voxel);
     const std::vector<PanelSurface> none;
@@ -453,6 +453,7 @@ std::vector<Format> areaFormats()
         {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
         {"pockets.csv", built, Areas | AllFrames, ofAreas, "pockets", writeAreaTable},
         {"pore.csv", built, Areas | AllFrames, ofAreas, "pore", writeAreaTable},
+        {"tunnels.csv", built, Areas | AllFrames, ofAreas, "tunnels", writeAreaTable},
         {"forces.csv", built, Areas | AllFrames, "forces of atoms", "forces", writeAreaTable},
         {"pore.svg", built, Areas, ofPore, "pore",
          [](const Writing& w, OutputFile& file) { writeProfileSvg(*w.result.report.pore, file); }},
@@ -463,7 +464,7 @@ std::vector<Format> areaFormats()
         {"pore.ply", built, Areas, ofPore, "pore", writeTube},
         {"pore.obj", built, Areas, ofPore, "pore", writeTube},
         {"pore.glb", built, Areas, ofPore, "pore", writeTube},
-        {"tunnels.csv", built, Areas, ofAreas, "tunnels", writeAreaTable},
+        {"tunnel_frames.csv", Build, Areas | AllFrames, ofTunnels, "tunnel_frames", nullptr},
         {"tunnels.ply", built, Areas, ofTunnels, "tunnels", writeTube},
         {"tunnels.obj", built, Areas, ofTunnels, "tunnels", writeTube},
         {"tunnels.glb", built, Areas, ofTunnels, "tunnels", writeTube},

@@ -8,6 +8,7 @@
 
 #include "molsurf/show/color/legend.h"
 #include "molsurf/show/io/output_file.h"
+#include "molsurf/show/picture/atom_model.h"
 #include "molsurf/surface.h"
 
 #include <optional>
@@ -33,7 +34,7 @@ struct ShownMeshes {
     std::shared_ptr<const ColorOwners> borders{}; ///< between its colours; null: they have none
     std::optional<Mesh> crisp{};                  ///< the mesh, with these borders cut
     std::shared_ptr<const Mesh> bodies{};         ///< of pockets; null: none
-    std::shared_ptr<const Mesh> drawnBodies{};    ///< those that pages show; null: none
+    std::shared_ptr<const Bodies> drawnBodies{};  ///< that pages show, with tunnels; null: none
     std::vector<Mesh> coarser{};                  ///< the further levels of detail of --lod
     std::optional<Legend> legend{}; ///< of colours that no option names; none: by the options
     std::string about{};            ///< what a page shows; empty: kind and voxels of the surface

@@ -360,6 +360,7 @@ struct Report {
     struct Tunnels {
         /// A way from the start to the outside.
         struct Tunnel {
+            std::size_t number = 0; ///< from 1; over frames one for each tunnel
             std::vector<Pore::Station> stations{}; ///< from the start on; their distances are along
                                                    ///< the way, and their balls touch three atoms
             double length() const { return stations.back().distance; }
@@ -373,7 +374,7 @@ struct Report {
         double probeOut = 0.0;    ///< they end at what a ball of this reaches from outside [Å]
         std::vector<Tunnel> list; ///< the widest at their narrowest places first
 
-        /// A row for every station: tunnel (its number from 1), distance_A, x_A, y_A, z_A,
+        /// A row for every station: tunnel (its number), distance_A, x_A, y_A, z_A,
         /// radius_A, bottleneck (1 or 0), residues and atom_ids (within 1 Å, the nearest first),
         /// and of its tunnel bottleneck_A (the least radius), length_A, curvature, hydrophobicity
         /// (mean over the lining, of Kyte and Doolittle), charge (of side chains), and what was

@@ -110,6 +110,7 @@ CASES = [[f"{name} {more} {EVERY}"] for name, more in [
     [f"{D} --coarse residue --surface sas -o a.json -o a.stl", f"{D} --copies 2 --resolution 6 -o b.json -o b.ply"],
     [f"{A} --pockets -o a.json -o a.pockets.csv -o a.pockets.ply --fields pocket_id,pocket_depth -o a.vdb"],
     ["@1grm.pdb.gz --pore auto --voxel 1 -o a.pore.csv -o a.json -o a.pore.svg -o a.pore.ply"],
+    ["@1d3z.pdb.gz --frames 1-2 --tunnels-from A/44 -o a.tunnel_frames.csv"],
     ["@1grm.pdb.gz --tunnels-from 0,-4,3 --voxel 1 -o a.tunnels.csv -o a.json -o a.tunnels.ply -o a.tunnels.pdb -o a.tunnels.cif"],
     [f"{S} --altloc all --hetero --waters {EVERY}", f"{S} --no-hydrogens --radii protor --surface ses -o b.json -o b.atoms.csv"],
     ["@1d3z.pdb.gz --voxel 1.5 --frames 1-3 --fields v --fps 10 -o f.vdb -o f.csv -o f.json"],

@@ -508,8 +508,8 @@ CASES = {
     "tools/cli/pair_table.cpp": [
         ('--tunnels-from "resid 57", for example', "vdb_molsurf 1grm.pdb.gz -o a.tunnels.csv",
          "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnels.csv"),
-        ("--model 2", "vdb_molsurf 1d3z.pdb.gz --frames 1-2 --tunnels-from 'resid 44' -o a.tunnels.csv",
-         "vdb_molsurf 1d3z.pdb.gz --model 2 --tunnels-from 'resid 44' -o a.tunnels.csv"),
+        ("-o FILE.tunnels.csv for one", "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnel_frames.csv",
+         "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnels.csv"),
         ("vdb_molsurf compare A B --superpose auto", f"vdb_molsurf 1crn.pdb {FAST} --superpose auto -o a.ply",
          f"cp 1crn.pdb A; cp 1crn.pdb B; vdb_molsurf compare A B --superpose auto {FAST}"),
         ("another --color", f"vdb_molsurf 1d3z.pdb.gz {FAST} --frames 1 --superpose auto --color potential=x.dx -o a.ply",

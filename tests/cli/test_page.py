@@ -230,6 +230,24 @@ class Page(ToolTest):
         self.assertLess((self.folder / "a.html").stat().st_size, 12e6)
         self.assertNotIn(b"lighter", done.stderr)
 
+    def test_bodies_go_with_a_surface_that_is_centered(self):
+        args = (DATA / "1grm.pdb.gz", "--tunnels-from", "0,-4,3", "--surface", "ses", "--voxel", 1)
+        middles = [json.loads(element(self.page(*args, *more), "header"))["bodies"]["middle"] for more in ((), ("--center",))]
+        for a, b in zip(*middles):
+            self.assertAlmostEqual(a, b, delta=0.001)
+
+    @needs("chromium")
+    def test_tunnels_are_tubes(self):
+        page = self.page(DATA / "1grm.pdb.gz", "--tunnels-from", "resid 1", "--surface", "ses", "--voxel", 1, "--color", "element")
+        bodies = json.loads(element(page, "header"))["bodies"]
+        self.assertEqual(len(bodies["parts"]), 2)
+        self.assertEqual({entry["title"] for entry in bodies["entries"]}, {"Tunnels"})
+        self.assertEqual([entry["name"] for entry in bodies["entries"]], ["1.15 to 2.3 Å"])
+        with self.opened((1000, 700)) as browser:
+            self.ready(browser)
+            headings = browser.evaluate("[...document.querySelectorAll('#legend h2')].map((h) => h.textContent)")
+            self.assertEqual(headings, ["Element", "Tunnels"])
+
     @needs("chromium")
     def test_a_residue_is_turned_into_sight(self):
         """Whatever side it is on: Enter turns to it, and its line is in the panel without scrolling."""

@@ -7,7 +7,7 @@ import math
 import unittest
 import xml.dom.minidom
 
-from tool import DATA, ToolTest, read_ply
+from tool import DATA, ToolTest, read_ply, read_png
 
 GRAMICIDIN = DATA / "1grm.pdb.gz"
 ENDS = "0,-12.5,3 -> 0.06,12.5,3"
@@ -242,6 +242,66 @@ class Tunnels(ToolTest):
             self.check(0, *args, "-j", threads, "-o", f"{threads}.tunnels.csv")
         self.assertEqual((self.folder / "1.tunnels.csv").read_bytes(), (self.folder / "2.tunnels.csv").read_bytes())
 
+    def test_a_tunnel_has_one_number_in_all_frames(self):
+        """Plugs close the shafts of a chamber, in some of the frames, while the molecule turns."""
+        places = range(-6, 7)
+        walls = [(x, y, z) for x in places for y in places for z in places
+                 if not (max(abs(x), abs(y), abs(z)) < 3 or (y > 0 and max(abs(x), abs(z)) < 3) or (x > 0 and abs(y) < 3 and -2 < z < 3))]
+        plugs, parked = [(5, 0, 0.5), (0, 5, 0)], [(-4.9, -5, 0), (-5.1, -5, 1)]
+        frames = (((), False), ((0,), True), ((), True), ((0, 1), False))
+        text = ""
+        for number, (closed, turned) in enumerate(frames, 1):
+            text += f"MODEL {number:8}\n"
+            for i, at in enumerate(walls + [plugs[k] if k in closed else parked[k] for k in (0, 1)]):
+                x, y, z = (30 - at[1], at[0] - 7, at[2] + 1) if turned else at
+                text += f"HETATM{i + 1:5}  C   UNK A{i + 1:4}    {x:8.3f}{y:8.3f}{z:8.3f}  1.00  0.00           C\n"
+            text += "ENDMDL\n"
+        (self.folder / "t.pdb").write_text(text)
+        (self.folder / "own.radii").write_text("C 1.5\n")
+        args = ("t.pdb", "--hetero", "--radii", "own.radii", "--frames", "all", "--tunnels-from", "resid 100+1700")
+        names = [f"t.{end}" for end in ("tunnel_frames.csv", "tunnels.csv", "tunnels.pdb", "csv")]
+        says = ["tunnels: 2 in all; the most often open: number 1, in 3 of 4 frames, 1.500 to 1.500 Å wide, mean 1.500 Å",
+                "no tunnels in frames 4 [--tunnels-from: expected a way out of"]
+        self.check(0, *args, *(word for name in names for word in ("-o", name)), says=says)
+        rows = self.table("t.tunnel_frames.csv")
+        self.assertEqual(list(rows[0]), ["tunnel", "frame", "open", "radius_A", "length_A", "curvature", "x_A", "y_A", "z_A", "residues",
+                                         "open_share"])
+        self.assertEqual([(row["tunnel"], row["frame"], row["open"]) for row in rows],
+                         [(tunnel, str(n), "10"[k in closed]) for k, tunnel in ((1, "1"), (0, "2")) for n, (closed, _) in enumerate(frames, 1)])
+        self.assertEqual({(row["tunnel"], row["open_share"]) for row in rows}, {("1", "0.75"), ("2", "0.5")})
+        all_of = self.table("t.tunnels.csv")
+        for row in rows:
+            own = [other for other in all_of if (other["frame"], other["tunnel"]) == (row["frame"], row["tunnel"])]
+            self.assertEqual({other["length_A"] for other in own}, {row["length_A"]} if row["open"] == "1" else set())
+            if row["open"] == "0":
+                self.assertEqual((row["radius_A"], row["residues"], row["x_A"]), ("", "", ""))
+                continue
+            self.assertAlmostEqual(float(row["radius_A"]), 1.5 if row["tunnel"] == "1" else 1.0495, places=4)
+            narrowest = min(own, key=lambda other: float(other["radius_A"]))
+            self.assertEqual([row[key] for key in ("x_A", "y_A", "z_A", "residues")], [narrowest[key] for key in ("x_A", "y_A", "z_A", "residues")])
+        numbers = [{line[22:26].strip() for line in (self.folder / f"t.tunnels.000{n}.pdb").read_text().splitlines() if line.startswith("HETATM")}
+                   for n in (1, 2, 3)]
+        self.assertEqual(numbers, [{"1", "2"}, {"1"}, {"1", "2"}])
+        self.assertFalse((self.folder / "t.tunnels.0004.pdb").exists())
+        self.check(1, *args[:-1], "0,0,60", "-o", "bad.tunnel_frames.csv", says="reaches from outside")
+        self.assertFalse((self.folder / "bad.tunnel_frames.csv").exists())
+        self.check(2, *args[:4], *args[6:], "-o", "bad.tunnel_frames.csv", says=["--frames", "-o FILE.tunnels.csv for one"])
+        self.check(2, *args[:6], "-o", "bad.tunnel_frames.csv", says="--tunnels-from")
+
+    def test_pictures_show_tubes(self):
+        args = (GRAMICIDIN, "--tunnels-from", "resid 1", "--surface", "ses", "--voxel", 1, "--color", "element")
+        self.check(0, *args, "--opacity", 0.1, "--style", "flat", "--size", 80, "--legend", "auto", "-o", "t.png", "-o", "t.legend.svg")
+        self.check(0, *args[:1], *args[3:], "--opacity", 0.1, "--style", "flat", "--size", 80, "-o", "none.png")
+
+        def green(name):
+            _, rows = read_png((self.folder / name).read_bytes())
+            return sum(row[i + 1] > row[i] + 25 and row[i + 1] > row[i + 2] + 25 for row in rows for i in range(0, len(row), 3))
+        self.assertGreater(green("t.png"), 60)
+        self.assertEqual(green("none.png"), 0)
+        legend = (self.folder / "t.legend.svg").read_text()
+        self.assertLess(legend.index(">Tunnel<"), legend.index(">1.15 to 2.3 Å<"))
+        self.assertNotIn("below 1.15", legend) # gramicidin is wider
+
     def test_what_is_wrong_is_said_in_a_line(self):
         for status, place, text in ((2, "1,2", "expected X,Y,Z"), (2, "resid 999", "resid 999"), (1, "0,0,60", "reaches from outside"),
                                     (1, "6,6,6", "a ball of 0.9 Å fits"), (2, "nan,0,0", "expected X,Y,Z")):
@@ -249,7 +309,6 @@ class Tunnels(ToolTest):
                        says=["--tunnels-from", text])
             self.assertFalse((self.folder / "bad.tunnels.csv").exists())
         self.check(2, "two.xyzr", "-o", "bad.tunnels.csv", says="--tunnels-from")
-        self.check(2, DATA / "1d3z.pdb.gz", "--frames", "all", "--tunnels-from", "resid 44", "-o", "bad.tunnels.csv", says="--model 2")
 
 
 if __name__ == "__main__":

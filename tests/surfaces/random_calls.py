@@ -160,6 +160,7 @@ def surface_options(rng):
         lambda: ["--pockets", "--show", rng.choice(("pockets=2", "pockets=all", "pockets=0", "pocket1,A"))],
         lambda: ["--tunnels-from", rng.choice(("A/1-3", "*", "1,2,0", "0,0", "[")), "--tunnel-probe", number(rng, "0.9", "0.3", "2"),
                  "-o", f"out.tunnels.{rng.choice(('csv', 'ply', 'glb', 'pdb', 'cif', 'cxc', 'pml'))}"],
+        lambda: ["--frames", "all", "--tunnels-from", rng.choice(("A/1-3", "1,2,0")), "-o", "out.tunnel_frames.csv"],
         lambda: ["--memory", rng.choice(("50M", "100M", "4G"))],
         lambda: ["--for", rng.choice(("blender", "blender4", "houdini", "usd", "blender=nm"))],
         lambda: ["--print-scale", "1", "--min-wall", rng.choice(("1", "5"))],

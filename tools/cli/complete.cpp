@@ -383,7 +383,8 @@ void completeAreas(CommandLine& call)
     options.pockets |= tables.count("pockets") > 0;
     if (tables.count("pore") > 0 && call.atoms.pore.empty()) call.atoms.pore = "auto";
     options.ballAreas = std::any_of(tables.begin(), tables.end(), [](const std::string& table) {
-        return table != "contacts" && table != "pockets" && table != "pore" && table != "tunnels";
+        return table != "contacts" && table != "pockets" && table != "pore" && table != "tunnels" &&
+               table != "tunnel_frames";
     });
 }
 

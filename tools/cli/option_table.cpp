@@ -228,7 +228,7 @@ Values formatsOf(unsigned verb)
 {
     Values words;
     for (const Format& format : formatTable())
-        if ((format.verbs & verb) && (format.holds & (Stage | FrameRows | Moving)) == 0)
+        if ((format.verbs & verb) && format.write && (format.holds & (Stage | Moving)) == 0)
             words.push_back(format.word);
     return words;
 }

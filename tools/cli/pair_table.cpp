@@ -153,10 +153,11 @@ std::vector<Pair> pocketPairs()
     const char* place = " [hint: --tunnels-from \"resid 57\", for example]";
     pairs.push_back({{Areas, "tunnels"}, Needs, {"tunnels-from"}, place});
     pairs.push_back({"areas=tunnels", Needs, {"tunnels-from"}, place});
-    pairs.push_back({"tunnels-from",
-                     Excludes,
+    pairs.push_back({{Areas, "tunnel_frames"}, Needs, {"tunnels-from"}, place});
+    pairs.push_back({{Areas, "tunnel_frames"},
+                     Needs,
                      {"frames", "trajectory"},
-                     ": tunnels are those of one model [hint: --model 2]"});
+                     " [hint: -o FILE.tunnels.csv for one]"});
     return pairs;
 }
 
@@ -197,7 +198,7 @@ std::vector<Pair> surfacePairs()
              {"color", "show"},
              "",
              [](const CommandLine& call) {
-                 return (call.verb & (Convert | Compare)) != 0 ||
+                 return (call.verb & (Convert | Compare)) != 0 || !call.atoms.tunnelsFrom.empty() ||
                         call.options.color != ColorBy::Nothing; // --for chooses colours
              }},
             {"all-walls", IsFor, {"opacity"}},

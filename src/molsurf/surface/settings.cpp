@@ -735,9 +735,10 @@ std::vector<Setting> pocketSettings()
                         "'0,0,-9 -> 0,0,9', 'resid 14 -> resid 43'",
                         "none", MOLSURF_OF(atoms.pore));
     Setting tunnels = text("tunnels-from", "PLACE",
-                           "the ways out of a place, for the report, .tunnels.csv, and\n"
-                           "as .tunnels.ply, .obj, .glb, .pdb, .cif, .cxc, .pml: atoms,\n"
-                           "as 'resid 197', or a point X,Y,Z",
+                           "the ways out of a place, for the report, pictures and pages,\n"
+                           ".tunnels.csv, over frames .tunnel_frames.csv, and as\n"
+                           ".tunnels.ply, .obj, .glb, .pdb, .cif, .cxc, .pml: atoms, as\n"
+                           "'resid 197', or a point X,Y,Z",
                            "none", MOLSURF_OF(atoms.tunnelsFrom));
     at.ofAtoms = pore.ofAtoms = tunnels.ofAtoms = true;
     return {

@@ -2,10 +2,14 @@
 #include "molsurf/surface/tunnels.h"
 
 #include "molsurf/analysis/pockets/find_tunnels.h"
+#include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/pipeline/surface_run.h"
+#include "molsurf/show/color/pore_color.h"
 #include "molsurf/surface/pore.h"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 namespace molsurf
 {
@@ -25,11 +29,25 @@ Mesh tunnelTubes(const Report::Tunnels& tunnels)
     Mesh mesh;
     mesh.scalars.push_back({"radius", {}});
     for (const Report::Tunnels::Tunnel& tunnel : tunnels.list) {
-        mesh.parts.push_back(
-            {"tunnel " + std::to_string(mesh.parts.size() + 1), mesh.triangles.size()});
+        mesh.parts.push_back({"tunnel " + std::to_string(tunnel.number), mesh.triangles.size()});
         addTube(tunnel.stations, mesh);
     }
     return mesh;
+}
+
+std::vector<LegendEntry> tubeLegend(const Mesh& tubes)
+{
+    const auto [low, high] = poreSteps;
+    std::vector<LegendEntry> out;
+    const auto add = [&](double radius, std::string name) {
+        const Color color = poreColor(radius);
+        if (std::count(tubes.colors.begin(), tubes.colors.end(), color) > 0)
+            out.push_back({std::move(name), color});
+    };
+    add(0.0, formatted("below %g Å", low));
+    add(low, formatted("%g to %g Å", low, high));
+    add(high, formatted("from %g Å", high));
+    return out;
 }
 
 BallSet tunnelBalls(const Report::Tunnels& tunnels)
@@ -37,12 +55,12 @@ BallSet tunnelBalls(const Report::Tunnels& tunnels)
     BallSet out;
     out.names.emplace();
     for (const Report::Tunnels::Tunnel& tunnel : tunnels.list) {
-        const auto number = std::int32_t(out.names->residues.size());
-        out.names->residues.push_back({"T", "T", "TUN", number + 1, ' ', true});
+        const auto place = std::int32_t(out.names->residues.size());
+        out.names->residues.push_back({"T", "T", "TUN", int(tunnel.number), ' ', true});
         for (const Report::Pore::Station& s : tunnel.stations) {
             out.balls.push_back({openvdb::Vec3d(s.place[0], s.place[1], s.place[2]), s.radius,
                                  std::int32_t(out.balls.size() + 1)});
-            out.names->residueOf.push_back(number);
+            out.names->residueOf.push_back(place);
             out.names->atoms.push_back({"X", '\0', 0, 1.0f});
         }
     }

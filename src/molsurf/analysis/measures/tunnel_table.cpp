@@ -37,12 +37,10 @@ Table Report::Tunnels::table(const BallSet& atoms) const
     StationColumns columns({"distance_A", "x_A", "y_A", "z_A", "radius_A", "bottleneck_A",
                             "length_A", "curvature", "hydrophobicity", "charge", "probe_A",
                             "probe_out_A"});
-    std::int64_t number = 0;
     for (const Tunnel& tunnel : list) {
-        ++number;
         const Lining all = liningOfTunnel(atoms, tunnel);
         for (const Report::Pore::Station& s : tunnel.stations)
-            columns.add(atoms, s, number,
+            columns.add(atoms, s, std::int64_t(tunnel.number),
                         {s.distance, s.place[0], s.place[1], s.place[2], s.radius,
                          tunnel.narrowest().radius, tunnel.length(), tunnel.curvature(),
                          all.hydrophobicity, all.charge, probe, probeOut});

@@ -23,9 +23,10 @@ struct TunnelOptions {
 /// Finds the ways from a place among balls to the outside, one for each mouth: those along which
 /// the narrowest place is as wide as can be, exact but for rounding.
 ///
-/// They begin in a room, where the clearance is largest nearby: the one that the way up from the
-/// place leads to, or, if the small probe does not fit in the middle of the atoms, the widest
-/// beside it. They end at the surface of the large probe.
+/// They begin in a room, where the clearance is largest nearby: the one that the way up from a
+/// point leads to, or the one of a site, whose atoms may fill their middle x. That is, of those
+/// with a way out, the room with the largest R^2 / (|x - c|^2 + P^2): c is its centre, R its
+/// radius, at most that of the large probe, P. They end at the surface of the large probe.
 /// @param[in] balls  at least one, every one finite
 /// @throws Error(ErrorKind::Input) if the small probe does not fit at a point, if the large probe
 ///         gets to the place from outside, or if there is no way out

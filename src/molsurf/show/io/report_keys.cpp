@@ -223,6 +223,7 @@ constexpr ReportKey keyTable[] = {
     {"tunnels.probe", "Å", "Radius that they have at least"},
     {"tunnels.probe_out", "Å", "Radius of the ball that gets to their ends from outside"},
     {"tunnels.list", "", "Ways out, one for each mouth, the widest first"},
+    {"tunnels.list[].number", "", "Its number, from 1; over frames one for each tunnel"},
     {"tunnels.list[].radius", "Å", "Radius of the narrowest place"},
     {"tunnels.list[].center", "Å", "That place"},
     {"tunnels.list[].length", "Å", "Length along the way"},

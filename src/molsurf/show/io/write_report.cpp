@@ -219,7 +219,8 @@ Json tunnelsJson(const Report::Tunnels& tunnels)
 {
     Json list = Json::array();
     for (const Report::Tunnels::Tunnel& tunnel : tunnels.list) {
-        Json one = {{"radius", tunnel.narrowest().radius},
+        Json one = {{"number", tunnel.number},
+                    {"radius", tunnel.narrowest().radius},
                     {"center", tunnel.narrowest().place},
                     {"length", tunnel.length()},
                     {"curvature", tunnel.curvature()}};

@@ -39,12 +39,11 @@ std::string loopOf(const std::string& category, const std::string& items)
 }
 
 std::string profileRow(const BallSet& atoms, const Report::Tunnels::Tunnel& tunnel,
-                       std::size_t number, const Report::Pore::Station& s,
-                       const openvdb::Vec3d& origin)
+                       const Report::Pore::Station& s, const openvdb::Vec3d& origin)
 {
     std::vector<std::pair<std::size_t, double>> parts;
     for (const std::size_t ball : s.lining) parts.emplace_back(ball, 1.0);
-    return formatted("%zu %.4f ? %.4f %.6f ", number, s.radius, s.distance,
+    return formatted("%zu %.4f ? %.4f %.6f ", tunnel.number, s.radius, s.distance,
                      s.distance / tunnel.length()) +
            placeIn(s, origin, " ") + " " + known("%.0f", liningOf(atoms, parts).charge) + "\n";
 }
@@ -54,42 +53,42 @@ std::string profileRow(const BallSet& atoms, const Report::Tunnels::Tunnel& tunn
 void writeTunnelsCif(const BallSet& atoms, const Report::Tunnels& tunnels,
                      const openvdb::Vec3d& origin, OutputFile& file)
 {
-    const std::vector<Report::Tunnels::Tunnel>& list = tunnels.list;
     std::string text = "data_tunnels\n_audit_conform.dict_name mmcif_tunnels.dic\n"
                        "_audit_conform.dict_version 1.0\n"
                        "_audit_conform.dict_location "
                        "https://sb-ncbr.github.io/tunnels-schema/mmcif_tunnels_v10.dic\n" +
                        loopOf("_sb_ncbr_channel", "id,type,method,software,auto,cavity");
-    for (std::size_t t = 0; t < list.size(); ++t)
-        text += formatted("%zu Tunnel void_graph vdb_molsurf False ?\n", t + 1);
+    for (const Report::Tunnels::Tunnel& tunnel : tunnels.list)
+        text += formatted("%zu Tunnel void_graph vdb_molsurf False ?\n", tunnel.number);
     text += loopOf("_sb_ncbr_channel_props",
                    "channel_id,charge,hydropathy,hydrophobicity,mutability,numNegatives,"
                    "numPositives,polarity,logD,logP,logS,ionizable,bRadius");
-    for (std::size_t t = 0; t < list.size(); ++t) {
-        const Lining lining = liningOfTunnel(atoms, list[t]);
-        text += std::to_string(t + 1) + " " + known("%.0f", lining.charge) + " " +
+    for (const Report::Tunnels::Tunnel& tunnel : tunnels.list) {
+        const Lining lining = liningOfTunnel(atoms, tunnel);
+        text += std::to_string(tunnel.number) + " " + known("%.0f", lining.charge) + " " +
                 known("%.3f", lining.hydrophobicity) + " ? ? ? ? ? ? ? ? ? ?\n";
     }
     text +=
         loopOf("_sb_ncbr_channel_profile", "channel_id,radius,free_radius,distance,T,x,y,z,charge");
-    for (std::size_t t = 0; t < list.size(); ++t)
-        for (const Report::Pore::Station& s : list[t].stations)
-            text += profileRow(atoms, list[t], t + 1, s, origin);
+    for (const Report::Tunnels::Tunnel& tunnel : tunnels.list)
+        for (const Report::Pore::Station& s : tunnel.stations)
+            text += profileRow(atoms, tunnel, s, origin);
     file.write(text);
 }
 
 void writeTunnelsChimeraX(const Report::Tunnels& tunnels, const openvdb::Vec3d& origin,
                           OutputFile& file)
 {
-    constexpr std::size_t firstModel = 1001; // others have low numbers
-    for (std::size_t t = 0; t < tunnels.list.size(); ++t) {
-        for (const Report::Pore::Station& s : tunnels.list[t].stations) {
+    constexpr std::size_t before = 1000; // others have low numbers
+    for (const Report::Tunnels::Tunnel& tunnel : tunnels.list) {
+        for (const Report::Pore::Station& s : tunnel.stations) {
             const Color c = poreColor(s.radius);
-            file.write(formatted("marker #%zu position ", firstModel + t) +
+            file.write(formatted("marker #%zu position ", before + tunnel.number) +
                        placeIn(s, origin, ",") +
                        formatted(" radius %.3f color #%02x%02x%02x\n", s.radius, c[0], c[1], c[2]));
         }
-        file.write(formatted("rename #%zu \"tunnel %zu\"\n", firstModel + t, t + 1));
+        file.write(
+            formatted("rename #%zu \"tunnel %zu\"\n", before + tunnel.number, tunnel.number));
     }
 }
 
@@ -100,10 +99,10 @@ void writeTunnelsPymol(const Report::Tunnels& tunnels, const openvdb::Vec3d& ori
         const Color c = poreColor(radius);
         return formatted("0x%02x%02x%02x", c[0], c[1], c[2]);
     };
-    for (std::size_t t = 0; t < tunnels.list.size(); ++t) {
-        const std::string name = formatted("tunnel_%zu", t + 1);
+    for (const Report::Tunnels::Tunnel& tunnel : tunnels.list) {
+        const std::string name = formatted("tunnel_%zu", tunnel.number);
         std::size_t number = 0;
-        for (const Report::Pore::Station& s : tunnels.list[t].stations)
+        for (const Report::Pore::Station& s : tunnel.stations)
             file.write(formatted("pseudoatom %s, resi=%zu, b=%.3f, vdw=%.3f, pos=[", name.c_str(),
                                  ++number, s.radius, s.radius) +
                        placeIn(s, origin, ", ") + "]\n");

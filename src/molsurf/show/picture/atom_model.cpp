@@ -539,18 +539,15 @@ AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progre
     return model;
 }
 
-void addBodies(const Mesh& bodies, AtomModel& model)
+void addBodies(const Bodies& bodies, AtomModel& model)
 {
     const bool throughLight = !model.instances.empty();
-    for (const PartRange& part : partRanges(bodies, ""))
-        model.pockets.push_back({part.name, bodies.colors[part.firstVertex]});
-    if (throughLight) {
-        model.bodies = bodies;
-        return;
-    }
-    model.mesh = bodies;
-    for (std::size_t place = 0; place < model.pockets.size(); ++place)
-        model.instances.push_back({Motion::identity(), place, model.pockets[place].name, white});
+    model.bodies = bodies;
+    if (throughLight) return;
+    model.mesh = std::exchange(model.bodies.mesh, {});
+    const std::vector<PartRange> parts = partRanges(model.mesh, "");
+    for (std::size_t place = 0; place < parts.size(); ++place)
+        model.instances.push_back({Motion::identity(), place, parts[place].name, white});
 }
 
 } // namespace molsurf

@@ -20,13 +20,18 @@ namespace molsurf
 struct FileBonds;
 struct ShownAtoms;
 
+/// What is shown in the space between atoms, and what its colours mean.
+struct Bodies {
+    Mesh mesh; ///< with colours
+    std::vector<LegendEntry> pockets, tunnels;
+};
+
 /// Balls, sticks and tubes: copies of parts of a mesh, which may be stretched.
 struct AtomModel {
     Mesh mesh; ///< a ball and a stick of radius 1, and the tubes as they are
     std::vector<MeshInstance> instances;
     std::vector<LegendEntry> chains, elements; ///< of tubes, and of balls and sticks
-    std::vector<LegendEntry> pockets;          ///< of bodies
-    Mesh bodies;                               ///< that let light through, with colours
+    Bodies bodies; ///< with a mesh if they let light through; else `mesh` has it
 };
 
 /// A way to show atoms.
@@ -69,8 +74,8 @@ double bytesOfModel(const std::vector<ShownAtoms>& shown);
 /// @throws Error(ErrorKind::Input) if a rule has nothing to show, as a tube without a backbone
 AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progress);
 
-/// Adds the parts of a mesh with colours, and a legend of their names. Where atoms are shown the
-/// parts let light through, so that a ligand is seen in its pocket.
-void addBodies(const Mesh& bodies, AtomModel& model);
+/// Adds bodies with their legends. Where atoms are shown they let light through, so that a ligand
+/// is seen in its pocket.
+void addBodies(const Bodies& bodies, AtomModel& model);
 
 } // namespace molsurf

@@ -200,7 +200,8 @@ std::vector<Legend> legendsOf(const std::optional<Legend>& surface, const AtomMo
     };
     add("Chain", model->chains);
     add("Element", model->elements);
-    add("Pocket", model->pockets);
+    add("Pocket", model->bodies.pockets);
+    add("Tunnel", model->bodies.tunnels);
     return legends;
 }
 

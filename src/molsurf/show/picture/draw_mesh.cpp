@@ -263,7 +263,7 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     const PictureStyle& style = options.style ? *options.style : styleTable().front();
     std::vector<Light> lights;
     {
-        const bool bodies = options.model && !options.model->bodies.triangles.empty();
+        const bool bodies = options.model && !options.model->bodies.mesh.triangles.empty();
         const bool behind = options.opacity < 1.0 && (options.allWalls || options.model);
         const bool many = bodies || (options.opacity < 1.0 && options.allWalls);
         const int layers = many ? mostLayers : behind ? 2 : 1;

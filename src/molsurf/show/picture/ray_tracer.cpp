@@ -97,8 +97,8 @@ Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
     for (auto& owner : owners_) owner.store(unknown, std::memory_order_relaxed);
     if (options.model) atoms_.emplace(options.model->mesh, options.model->instances);
     static const std::vector<MeshInstance> asTheyAre;
-    if (options.model && !options.model->bodies.triangles.empty())
-        bodies_.emplace(options.model->bodies, asTheyAre);
+    if (options.model && !options.model->bodies.mesh.triangles.empty())
+        bodies_.emplace(options.model->bodies.mesh, asTheyAre);
 }
 
 Layer Tracer::first(const Progress& progress) const

@@ -65,7 +65,7 @@ public:
         const int directions = // fewer of many atoms, for some 200000 points in all
             std::clamp(int(200000 / model->instances.size()), 20, manyDirections);
         addSpan(model->mesh, model->instances, directions, others_);
-        for (const Vec3f& p : model->bodies.positions) others_.emplace_back(p);
+        for (const Vec3f& p : model->bodies.mesh.positions) others_.emplace_back(p);
     }
 
     template<typename F>

@@ -261,16 +261,20 @@ Json cutOf(const HtmlPage& page, const openvdb::Vec3d& origin, Arrays& arrays)
     return {{"step", step}, {"radius_step", radiusStep}, {"low", {low[0], low[1], low[2]}}};
 }
 
-/// Packs the bodies inside, with their legend.
-Json bodiesOf(const Mesh& bodies, const openvdb::Vec3d& origin, Arrays& arrays)
+/// Packs the bodies inside, with their legends.
+Json bodiesOf(const Bodies& bodies, const openvdb::Vec3d& origin, Arrays& arrays)
 {
-    Json out = levelOf(bodies, origin, "_bodies", arrays);
-    arrays.add("color_bodies", bodies.colors.size(), 3, 1, [&](std::size_t i, int c) {
-        return std::uint32_t(bodies.colors[i][std::size_t(c)]);
-    });
-    for (const PartRange& part : partRanges(bodies, ""))
-        out["entries"].push_back(
-            Json{{"name", part.name}, {"color", colorJson(bodies.colors[part.firstVertex])}});
+    const std::vector<Color>& colors = bodies.mesh.colors;
+    Json out = levelOf(bodies.mesh, origin, "_bodies", arrays);
+    arrays.add("color_bodies", colors.size(), 3, 1,
+               [&](std::size_t i, int c) { return std::uint32_t(colors[i][std::size_t(c)]); });
+    const auto add = [&](const char* title, const std::vector<LegendEntry>& entries) {
+        for (const LegendEntry& entry : entries)
+            out["entries"].push_back(
+                Json{{"title", title}, {"name", entry.name}, {"color", colorJson(entry.color)}});
+    };
+    add("Pockets", bodies.pockets);
+    add("Tunnels", bodies.tunnels);
     return out;
 }
 
@@ -307,7 +311,7 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, const openvdb::Vec3d& orig
     Json names = page.names && !page.ballOf.empty() ? namesOf(page, arrays) : Json();
     const bool colored = !page.balls.empty() && page.instances.empty();
     Json cut = colored ? cutOf(page, origin, arrays) : Json();
-    const bool has = page.bodies && !page.bodies->triangles.empty();
+    const bool has = page.bodies && !page.bodies->mesh.triangles.empty();
     Json bodies = has ? bodiesOf(*page.bodies, origin, arrays) : Json();
     return {{"title", page.title},
             {"name", page.name},

@@ -9,6 +9,7 @@
 #include "molsurf/mesh.h"
 #include "molsurf/show/color/legend.h"
 #include "molsurf/show/io/output_file.h"
+#include "molsurf/show/picture/atom_model.h"
 
 #include <array>
 #include <string>
@@ -40,8 +41,8 @@ struct HtmlPage {
     /// cut is grey.
     std::vector<Ball> balls{};
     std::vector<std::vector<Color>> cutColors{};
-    const Mesh* bodies = nullptr; ///< opaque parts inside, with names and colours; null: none
-    double opacity = 1.0;         ///< of the surface at first
+    const Bodies* bodies = nullptr; ///< opaque parts inside; null: none
+    double opacity = 1.0;           ///< of the surface at first
     /// Of a further layer: whether it is where the first one is. Else its middle comes to that
     /// one's.
     bool inPlace = false;

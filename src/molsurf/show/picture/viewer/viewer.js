@@ -206,9 +206,11 @@ function showLegend(modes, bodies) {
     legend.append(row);
   };
   rows.forEach(add);
-  if (bodies.length === 0) return;
-  heading('Pockets');
-  new Map(bodies.map((entry) => [[entry.name, ...entry.color].join(), entry])).forEach(add);
+  for (const title of new Set(bodies.map((entry) => entry.title))) {
+    heading(title);
+    const own = bodies.filter((entry) => entry.title === title);
+    new Map(own.map((entry) => [[entry.name, ...entry.color].join(), entry])).forEach(add);
+  }
 }
 
 // ---- the atoms ------------------------------------------------------------------------------
