@@ -429,6 +429,9 @@ Report buildSurface(const CommandLine& call, const BallSet& balls, const Report&
     if (call.verbose) sayTimes(report);
     if (call.quiet) return report;
     printLine(summary(report));
+    if (report.evolution)
+        if (const std::string held = heldText(*report.evolution, call.options); !held.empty())
+            printLine(held);
     if (report.pockets) printLine(pocketsLine(*report.pockets));
     if (report.pore) printLine(poreLine(*report.pore));
     if (report.tunnels) printLine(tunnelsLine(*report.tunnels));
