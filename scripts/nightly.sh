@@ -11,6 +11,7 @@
 #     calls       tests/surfaces/random_calls.py: 20,000 calls with mutated files and options, under sanitizers
 #     guides      the printed commands of README.md and of all guides, one after the other in one clone
 #     figures     scripts/check_docs.py --figures: the numbers of the pages, some of structures that are in FOLDER
+#     estimates   bench/estimates.py: seconds and memory of --dry-run beside those of runs; capsids of FOLDER, too
 #     wheel       scripts/wheel.sh: the Python module, its wheel and its tests
 #     package     scripts/package.sh: Debian's packages, built and tried in bare systems
 #     kernel      the kernel configured and built alone, with OpenVDB and TBB, and its example run
@@ -57,6 +58,10 @@ figures() {
     scripts/install_deps.sh gemmi pdb2pqr apbs-data && scripts/paper_structures.sh paper &&
     scripts/check_docs.py --figures "${structures[@]}"
 }
+estimates() {
+  cmake --preset release && cmake --build --preset release --target vdb_molsurf &&
+    bench/estimates.py build-release/tools/vdb_molsurf "${structures[@]}"
+}
 wheel() { scripts/wheel.sh; }
 package() { scripts/package.sh; }
 kernel() { tests/package/kernel/standalone.sh; }
@@ -71,12 +76,12 @@ while [[ $# -gt 0 ]]; do
   case $1 in
     --fuzz) seconds=${2:?--fuzz needs seconds} && shift ;;
     --structures) structures=(--structures "${2:?--structures needs a folder}") && shift ;;
-    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | guides | figures | wheel | package | kernel | examples | site | slurm) steps+=("$1") ;;
+    headers | mutations | fuzzing | asan | tsan | surfaces | poses | calls | guides | figures | estimates | wheel | package | kernel | examples | site | slurm) steps+=("$1") ;;
     *) echo "nightly.sh: expected a step or an option, got $1 [hint: see the first lines of this script]" >&2; exit 2 ;;
   esac
   shift
 done
-[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls guides figures wheel package kernel examples site slurm)
+[[ ${#steps[@]} -gt 0 ]] || steps=(headers mutations fuzzing asan tsan surfaces poses calls guides figures estimates wheel package kernel examples site slurm)
 
 scripts/install_deps.sh --test --check clang libclang-rt-dev dpkg-dev
 mkdir -p build-nightly

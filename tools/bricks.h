@@ -62,6 +62,10 @@ RunLimits limitsOf(const CommandLine& call);
 /// The same of a surface of atoms, with the bodies that pictures show.
 RunLimits limitsOf(const CommandLine& call, const BallSet& atoms);
 
+/// Whether a run measures a solvent-excluded surface in closed form: for what it writes, or for a
+/// table of many.
+bool needsClosedForm(const CommandLine& call);
+
 /// Whether pictures show what is behind the nearest wall, too.
 bool seesBehind(const CommandLine& call);
 

@@ -21,6 +21,7 @@
 #include "molsurf/scale/bricks/plan_bricks.h"
 #include "molsurf/show/io/output_folders.h"
 #include "molsurf/surface.h"
+#include "molsurf/surface/product_cost.h"
 #include "molsurf/surface/run.h"
 
 #include <malloc.h>
@@ -80,6 +81,12 @@ bool seesBehind(const CommandLine& call)
     return throughBodies || (call.picture.opacity < 1.0 && (call.picture.allWalls || showsBodies));
 }
 
+bool needsClosedForm(const CommandLine& call)
+{
+    const bool withTable = call.verb == Batch || !call.frames.empty();
+    return withTable || call.writes(Numbers | Areas);
+}
+
 RunLimits limitsOf(const CommandLine& call)
 {
     const std::size_t threads =
@@ -101,16 +108,10 @@ RunLimits limitsOf(const CommandLine& call, const BallSet& atoms)
     constexpr double shareOfBodies = 0.7; // of what the search for them takes
     constexpr std::size_t few = 20;
     if (call.shownPockets > few && call.writes(Pixels))
-        limits.besides.bytes +=
-            std::size_t(shareOfBodies * double(costOfPockets(atoms, call.options).bytes));
+        limits.besides.bytes += std::size_t(
+            shareOfBodies * costOfPockets(atoms, call.options, {double(atoms.balls.size())}).bytes);
     if (call.writes(Volume)) limits.besides.seconds += costOfMap(atoms, call.options).seconds;
-    const SurfaceOptions& options = call.options;
-    if (options.ballAreas || options.contacts || options.interfaces) {
-        const PlannedBrick areas = costOfAreas(atoms.balls.size(), options.interfaces);
-        limits.besides.bytes += areas.bytes;
-        limits.besides.seconds += areas.seconds;
-    }
-    if (!options.grid) limits.hint = " [hint: fewer atoms by `select`";
+    if (!call.options.grid) limits.hint = " [hint: fewer atoms by `select`";
     return limits;
 }
 
@@ -287,21 +288,19 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
 {
     stopIfAsked();
     checkGroups(call, balls);
+    call.options.closedForm = needsClosedForm(call);
     const RunLimits limits = limitsOf(call, balls);
+    const double seconds = checkCost(balls, call.options, limits, terminal);
     constexpr double any = std::numeric_limits<double>::infinity();
     if (!call.options.grid) {
-        checkCost(PlannedBrick(), limits);
         terminal.limitTo(any, call.hours);
     } else {
-        const double seconds = checkCost(balls, call.options, limits, terminal);
         terminal.limitTo(isEstimated(call.options) ? seconds : any, call.hours);
         terminal.expect(stagesOf(call.options, limits.besides.seconds / (seconds + 1e-9)),
                         seconds / limits.threads);
     }
     call.options.meshLabels = call.writes(Triangles | PlainColor);
     call.options.energy = call.writes(Numbers);
-    const bool many = call.verb == Batch || !call.frames.empty(); // with a table
-    call.options.closedForm = many || call.writes(Numbers | Areas);
     MolecularSurface result;
     try {
         result = makeUnitSurface(balls, withBodies(call), &terminal);
@@ -435,6 +434,9 @@ Report buildSurface(const CommandLine& call, const BallSet& balls, const Report&
     if (call.verbose) sayTimes(report);
     if (call.quiet) return report;
     printLine(summary(report));
+    if (report.evolution)
+        if (const std::string held = heldText(*report.evolution, call.options); !held.empty())
+            printLine(held);
     if (report.pockets) printLine(pocketsLine(*report.pockets));
     if (report.pore) printLine(poreLine(*report.pore));
     if (report.tunnels) printLine(tunnelsLine(*report.tunnels));

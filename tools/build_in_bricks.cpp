@@ -12,11 +12,13 @@
 #include "molsurf/scale/bricks/plan_bricks.h"
 #include "molsurf/show/io/commit.h"
 #include "molsurf/show/io/temporary_file.h"
+#include "molsurf/surface/product_table.h"
 
 #include <malloc.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -97,6 +99,20 @@ void checkOutputs(const CommandLine& call)
                                               endingsOf(~0u, BricksMerge, " or "));
 }
 
+/// Refuses bricks where something that is asked for is of the whole, with what that takes.
+void checkBricks(const CommandLine& call, const PlannedBrick& whole)
+{
+    const std::string what = missingIn(InBricks, call.options);
+    if (what.empty()) return checkOutputs(call);
+    const double bytes = double(memoryFor(whole));
+    throw Error(ErrorKind::Usage,
+                formatted("%s needs the whole molecule at once, which takes about %s of memory, "
+                          "and `memory` is %s [hint: `memory` %.0fM]",
+                          what.c_str(), sizeText(bytes).c_str(),
+                          sizeText(double(call.memory)).c_str(),
+                          std::ceil(1.01 * bytes / double(1 << 20))));
+}
+
 } // namespace
 
 bool goesInBricks(const CommandLine& call)
@@ -125,8 +141,9 @@ int buildInBricks(CommandLine call, Clock::time_point start)
                                           sizeText(double(call.memory)) + " [hint: --memory " +
                                           std::to_string(reading / 1000000 * 12 / 10) + "M]");
     if (call.memory == 0) checkBalls(atoms.balls, call.options, Pieces::One, availableMemory());
-    BrickPlan one =
-        call.options.grid ? planWhole(atoms, call.options, terminal) : planWithoutGrid(atoms);
+    call.options.closedForm = needsClosedForm(call);
+    BrickPlan one = call.options.grid ? planWhole(atoms, call.options, terminal)
+                                      : planWithoutGrid(atoms, call.options);
     RunLimits limits = limitsOf(call, atoms);
     limits.memory = std::numeric_limits<std::size_t>::max(); // bricks take less
     if (!call.dryRun) checkCost(one.bricks[0], limits);
@@ -140,8 +157,7 @@ int buildInBricks(CommandLine call, Clock::time_point start)
         for (const std::string& line : describePlan(one)) printLine(line);
         return 0;
     }
-    checkWay(InBricks, call.options);
-    checkOutputs(call);
+    checkBricks(call, one.bricks[0]);
     atoms.names.reset(); // bricks use none
     // As many bricks as it takes, all in this process, their atoms on disk.
     const BrickPlan plan = planBricks(atoms, call.options, {0, call.memory, true, true}, terminal);

@@ -137,6 +137,16 @@ std::string unrestText(const EvolutionReport& evolution, double voxel, const std
         steps.c_str(), 100.0 * evolution.unsettledShare, 0.1 * voxel, hint.c_str());
 }
 
+std::string heldText(const EvolutionReport& evolution, const SurfaceSpec& spec)
+{
+    const bool inClosedForm = evolution.steps == 0 && evolution.energy.empty();
+    if (!inClosedForm || !evolution.converged || evolution.toleranceMet < spec.evolution.tolerance)
+        return {};
+    return formatted("at rest as far as voxels of %g Å hold it: %.3g %% of the surface lies more "
+                     "than %.2g Å from rest [hint: a smaller --voxel]",
+                     spec.voxel, 100.0 * evolution.unsettledShare, 0.1 * spec.voxel);
+}
+
 void checkOutput(const CommandLine& call, const Output& output)
 {
     const bool first = output.holds(Numbered) && output.pocket == 0; // their number is not known

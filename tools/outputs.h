@@ -59,6 +59,9 @@ void addReading(const Report& read, Report& report);
 /// @param[in] more   option that lets it make more steps
 std::string unrestText(const EvolutionReport& evolution, double voxel, const std::string& more);
 
+/// A line on a surface that is at rest only as far as its voxels hold it; empty for others.
+std::string heldText(const EvolutionReport& evolution, const SurfaceSpec& spec);
+
 /// Finds out whether an output can be written.
 /// @throws Error(ErrorKind::Output) as checkWritable(), if the call reads that file, or if a
 ///         library is missing

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: MPL-2.0
 """Summaries of all kinds of files that runs on small molecules write, and those that they have to have.
 
-    VDB_MOLSURF=build-release/tools/vdb_molsurf tests/cli/reference.py [--renew] [WORD...]
+    VDB_MOLSURF=build-release/tools/vdb_molsurf tests/cli/reference.py [--renew REASON] [WORD...]
 
 Runs the cases with one of the words in their commands, or all, and compares what they write with tests/reference.json.
---renew takes what is written now: look at the difference before it is committed, and say in the commit why it is right.
+--renew takes what is written now, of the cases that differ: it prints the differences and a paragraph for the commit,
+which says why they are right.
 """
 
+import argparse
 import concurrent.futures
 import json
 import math
@@ -308,17 +310,45 @@ def all_runs(cases):
         return dict(zip(("; ".join(case) for case in cases), pool.map(run, cases)))
 
 
+def lines_of(value, indent=""):
+    """JSON with a key a line, so that a change of one number is a change of one line."""
+    if not isinstance(value, dict) or not value:
+        return json.dumps(value, separators=(",", ":"))
+    inner = ",\n".join(f"{indent} {json.dumps(key)}: {lines_of(value[key], indent + ' ')}" for key in value)
+    return "{\n" + inner + "\n" + indent + "}"
+
+
+def reason(text):
+    if len(text.split()) < 4:
+        raise argparse.ArgumentTypeError("expected the reason why the new values are right, of four words at least")
+    return text
+
+
+def renew(known, got, differing, why):
+    """Takes the new values of the cases that differ, and forgets cases that are no more."""
+    names = {"; ".join(case) for case in CASES}
+    kept = {name: (got if name in differing else known)[name] for name in names if name in known or name in got}
+    VALUES.write_text(lines_of({name: kept[name] for name in sorted(kept)}) + "\n")
+    if not differing:
+        return
+    print(f"\nFor the commit:\n\nReference values of {len(differing)} groups of commands are new: {why}")
+    for name in sorted(differing):
+        print(f"- {name}")
+
+
 def main():
-    words = [word for word in sys.argv[1:] if word != "--renew"]
-    cases = [case for case in CASES if not words or any(word in "; ".join(case) for word in words)]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--renew", metavar="REASON", type=reason)
+    parser.add_argument("words", metavar="WORD", nargs="*")
+    args = parser.parse_args()
+    cases = [case for case in CASES if not args.words or any(word in "; ".join(case) for word in args.words)]
     got = rounded(all_runs(cases))
     known = json.loads(VALUES.read_text()) if VALUES.exists() else {}
-    lines = [f"{case}:{line}" for case in got for line in (differ(known[case], got[case]) if case in known else [" new"])]
+    found = {case: list(differ(known[case], got[case])) if case in known else [" new"] for case in got}
+    lines = [f"{case}:{line}" for case in got for line in found[case]]
     print("\n".join(lines))
-    if "--renew" in sys.argv:
-        names = {"; ".join(case) for case in CASES}
-        kept = {name: {**known, **got}[name] for name in names if name in known or name in got}
-        VALUES.write_text("{\n" + ",\n".join(f"{json.dumps(name)}: {json.dumps(kept[name], separators=(',', ':'))}" for name in sorted(kept)) + "\n}\n")
+    if args.renew:
+        renew(known, got, {case for case in got if found[case]}, args.renew)
         return 0
     return 1 if lines else 0
 

@@ -298,6 +298,24 @@ class Frames(ToolTest):
         there = v.getConstAccessor()
         self.assertTrue(all(there.isValueOn(item.min) for item in fog.citerOnValues()))
 
+    @needs("openvdb")
+    def test_velocity_reaches_by_the_own_atom_of_a_voxel(self):
+        """One atom of a row jumps: the grid is wide about it, and not about the others."""
+        with open(self.folder / "row.pdb", "w", encoding="ascii") as file:
+            for model, jump in ((1, 0), (2, 20)):
+                file.write(f"MODEL     {model:4d}\n")
+                for k in range(20):
+                    file.write(f"ATOM  {k + 1:5d}  CA  ALA A{k + 1:4d}    {3.8 * k:8.3f}{jump if k == 0 else 0.4 * (model - 1):8.3f}{0:8.3f}  1.00  0.00           C\n")
+                file.write("ENDMDL\n")
+        self.check(0, "row.pdb", "--voxel", "1", "--radii", "bondi", "--frames", "1-2", "--fields", "v", "-o", "a.vdb")
+        surface, v = (pyopenvdb.read(str(self.folder / "a.0001.vdb"), name) for name in ("surface", "v"))
+        (low, high), (wide_low, wide_high) = (grid.evalActiveVoxelBoundingBox() for grid in (surface, v))
+        self.assertGreaterEqual(low[0] - wide_low[0], 20)
+        self.assertLessEqual(wide_high[0] - high[0], 2)
+        read = v.getConstAccessor()
+        self.assertEqual([round(x) for x in read.getValue((0, 18, 0))], [0, 20, 0])  # far from all balls
+        self.assertAlmostEqual(read.getValue((70, 2, 0))[1], 0.4, places=4)
+
     def test_first_frame(self):
         words = (NMR, *FAST, "--frames", "2-3", "--first-frame", "1001", "--for", "usd", "-o", "a.vdb", "-o", "a.csv")
         self.check(0, *words)

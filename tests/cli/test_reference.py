@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MPL-2.0
 """What runs on small molecules write is what tests/reference.json has: see reference.py, which renews it."""
 
+import argparse
 import json
 import unittest
 
@@ -29,6 +30,19 @@ class Reference(unittest.TestCase):
         self.assertEqual(told({"a": True, "b": "ses"}, {"a": True, "b": "ses"}), [])
         self.assertEqual(len(told({"a": True, "b": "ses"}, {"a": False, "b": "sas"})), 2)
         self.assertEqual(reference.text(b"A 1.5 x\nB -2 #1e5\n")["0"], reference.sums([1.5, -2.0]))
+
+    def test_a_change_is_a_change_of_one_line(self):
+        values = {"a": {"b.ply": {"0": [2, 1.5], "x": "y"}, "c": {}}, "d": 1}
+        lines = reference.lines_of(values).splitlines()
+        self.assertEqual(json.loads("\n".join(lines)), values)
+        values["a"]["b.ply"]["0"][1] = 2.5
+        self.assertEqual(sum(a != b for a, b in zip(lines, reference.lines_of(values).splitlines())), 1)
+
+    def test_a_renewal_needs_a_reason(self):
+        for text in ("", "new", "it is new"):
+            with self.assertRaises(argparse.ArgumentTypeError):
+                reference.reason(text)
+        self.assertTrue(reference.reason("areas are in closed form"))
 
 
 if __name__ == "__main__":

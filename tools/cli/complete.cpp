@@ -250,7 +250,12 @@ void completeScene(CommandLine& call)
         }
     }
     if (call.scene.host == Host::Usd) addSidecars(call);
-    if (call.has("min-wall")) call.options.minWall = call.wall / call.printScale;
+    if (!call.has("min-wall")) return;
+    call.options.minWall = call.wall / call.printScale;
+    if (call.options.minWall > maxWall)
+        usageError(formatted("--min-wall: expected at most %g mm, which are %g Å at --print-scale "
+                             "%g, got %g",
+                             maxWall * call.printScale, maxWall, call.printScale, call.wall));
 }
 
 // The eye looks across what is upright.

@@ -6,6 +6,7 @@
 /// is made. makeSurface() is a loop over these rows; grids have rows of their own (field_table.h).
 
 #include "molsurf/surface.h"
+#include "molsurf/surface/product_cost.h"
 
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ struct ProductRow {
     /// @throws Error that names what they lack
     void (*check)(const BallSet& atoms, const SurfaceOptions& options) = nullptr;
     void (*make)(MadeRun& run) = nullptr; ///< null: the stages make it
+    /// What it takes on top of a surface. Null: nothing to speak of, or the estimate of the surface
+    /// has it.
+    Cost (*cost)(const BallSet& atoms, const SurfaceOptions& options,
+                 const SurfaceSize& size) = nullptr;
 };
 
 /// All of them, in the order in which they are made.

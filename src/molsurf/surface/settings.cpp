@@ -370,7 +370,7 @@ std::vector<Setting> surfaceSettings()
                        MOLSURF_OF(options.minWall)),
                 [](Setting& row) {
                     row.preset = "";
-                    row.set = numberSetter("min-wall", 1e-300, 1e300, "a positive number of Å",
+                    row.set = numberSetter("min-wall", 1e-300, maxWall, "above 0, up to 100 Å",
                                            MOLSURF_OF(options.minWall));
                 }),
         fieldSetting(),

@@ -28,8 +28,9 @@ struct VelocityUnit {
 constexpr double farthestVelocity = 30.0;
 
 /// The grid `v`: at each active voxel the way of the ball that it belongs to, as in labelSurface();
-/// 0 elsewhere. Active are the voxels of the band, with `density` those of the fog, and all
-/// within the longest way of a ball from them: renderers look up the velocity where a ray is, and
+/// 0 elsewhere. Active are the voxels of the band, with `density` those of the fog, and all within
+/// the way of its own ball from one of these (which belong to the nearest ball, far from all to the
+/// nearest of those that move so far): renderers look up the velocity where a ray is, and
 /// not where the voxel came from. Vectors that are relative and turn with the grid
 /// (openvdb::VEC_CONTRAVARIANT_RELATIVE), with the metadata `unit`.
 ///

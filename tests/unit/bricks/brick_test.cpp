@@ -322,7 +322,7 @@ TEST_F(Bricks, HoldTheWholeSpaceOnce)
 TEST_F(Bricks, NeedTheMemoryOfTheirSurface)
 {
     BallSet atoms;
-    atoms.balls = chain();
+    atoms.balls = test::randomBalls(3000, 40.0, openvdb::Vec3d(0.0), 2);
     Progress progress;
     const auto bytes = [&](SurfaceKind kind, std::vector<std::string> fields) {
         SurfaceOptions options = coarse();
@@ -336,7 +336,7 @@ TEST_F(Bricks, NeedTheMemoryOfTheirSurface)
     const std::size_t one = bytes(SurfaceKind::Variational, {"surface", "mean_curvature"}) - plain;
     const std::size_t three = bytes(SurfaceKind::Variational, {"surface", "Cd"}) - plain;
     EXPECT_GT(one, 0u);
-    EXPECT_EQ(three, 3 * one);
+    EXPECT_NEAR(double(three), 3.0 * double(one), 2.0); // rounding
 }
 
 // Many leaves far from each other are counted by a sample, which takes little memory.

@@ -114,6 +114,28 @@ TEST(ClosedForm, KnowsHowFarRestIs)
     }
 }
 
+// Coarse voxels hold an interface to the sag of a chord and to the diagonal of a cell, fine ones as
+// near as it is asked for.
+TEST(ClosedForm, IsAtRestAsFarAsCoarseVoxelsHoldIt)
+{
+    const auto converged = [](double h, double most, double rare, double tolerance) {
+        Displacements ways; // a share of 0.5 % is beyond the quantile
+        for (int i = 0; i < 2000; ++i) ways.add(float((i < 10 ? rare : most) / h));
+        EvolveOptions options;
+        options.tolerance = tolerance;
+        EvolutionReport report;
+        checkConvergence(ways, options, h, report);
+        return report.converged;
+    };
+    EXPECT_TRUE(converged(3.0, 0.3, 5.0, 0.01)); // sag 0.56 Å, diagonal 5.2 Å
+    EXPECT_FALSE(converged(3.0, 0.6, 5.0, 0.01));
+    EXPECT_FALSE(converged(3.0, 0.3, 6.5, 0.01));
+    EXPECT_FALSE(converged(3.0, 0.3, 5.0, 0.009)); // who asks for more is told
+    EXPECT_FALSE(converged(0.7, 0.025, 0.5, 0.01));
+    EXPECT_TRUE(converged(0.8, 0.025, 0.5, 0.01)); // sag 0.04 Å
+    EXPECT_TRUE(converged(0.7, 0.015, 0.1, 0.01));
+}
+
 // Of one atom the formula leaves nothing out.
 TEST(ClosedForm, IsExactOfOneAtom)
 {

@@ -26,6 +26,8 @@ constexpr double decay = 0.5;     // [1/Å^2]
 constexpr double density = 30.0;  // of points [1/Å^2]: twice theirs, for steadiness
 constexpr double touching = 1e-6; // of a probe that touches a ball [Å]
 constexpr CellSize cells{1.0, fitProbe, 1.0};
+constexpr double rimCell = 1.0, nearCell = 0.5; // where points are sought [Å]
+constexpr std::size_t run = 32; // points that follow each other and share what is near them
 
 /// The balls of a group within fitReach of another one.
 std::vector<Ball> nearOnes(const std::vector<Ball>& balls, const BallIndex& other)
@@ -41,40 +43,61 @@ std::vector<Ball> nearOnes(const std::vector<Ball>& balls, const BallIndex& othe
     return near;
 }
 
-/// Whether the probe that touches a point runs into a ball.
-bool isBlocked(const ExcludedPoint& point, const BallIndex& balls)
+Vec3d probeOf(const ExcludedPoint& point)
 {
-    const Vec3d centre = point.position + fitProbe * point.normal;
-    return balls.anyNear(centre, centre, fitProbe, [&](const Ball& ball) {
-        const double reach = ball.radius + fitProbe - touching;
-        return (ball.center - centre).lengthSqr() < reach * reach;
+    return point.position + fitProbe * point.normal;
+}
+
+/// Of each point, whether the probe that touches it runs into a ball.
+std::vector<char> blockedBy(const BallIndex& balls, const ExcludedPoints& points,
+                            const Progress& progress)
+{
+    std::vector<char> blocked(points.size());
+    parallelFor((points.size() + run - 1) / run, progress, [&](std::size_t c) {
+        const std::size_t begin = c * run, end = std::min(points.size(), begin + run);
+        openvdb::BBoxd box;
+        for (std::size_t i = begin; i < end; ++i) box.expand(probeOf(points[i]));
+        std::vector<Ball> near;
+        balls.forEachNear(box.min(), box.max(), fitProbe,
+                          [&](const Ball& ball, std::int32_t) { near.push_back(ball); });
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vec3d centre = probeOf(points[i]);
+            blocked[i] = std::any_of(near.begin(), near.end(), [&](const Ball& ball) {
+                const double reach = ball.radius + fitProbe - touching;
+                return (ball.center - centre).lengthSqr() < reach * reach;
+            });
+        }
     });
+    return blocked;
 }
 
 /// Finds points near others.
 class PointIndex
 {
 public:
-    explicit PointIndex(const ExcludedPoints& points)
-        : points_(points), index_(asBalls(points), {0, 0, 1})
+    /// @param[in] cell  edge of the cells that hold them: a half or more of what is searched [Å]
+    PointIndex(const ExcludedPoints& points, double cell)
+        : points_(points), scale_(1.0 / cell), index_(asBalls(points, scale_), {0, 0, 1})
     {
     }
 
     bool anyWithin(const Vec3d& x, double reach) const
     {
-        return index_.anyNear(x, x, reach, [&](const Ball& ball) {
-            return (ball.center - x).lengthSqr() < reach * reach;
+        const Vec3d at = scale_ * x;
+        return index_.anyNear(at, at, scale_ * reach, [&](const Ball& ball) {
+            return (ball.center - at).lengthSqr() < scale_ * scale_ * reach * reach;
         });
     }
 
     /// The nearest; there is one.
     const ExcludedPoint& nearest(const Vec3d& x) const
     {
-        for (double reach = 1.0;; reach *= 2.0) {
-            double least = reach * reach;
+        const Vec3d at = scale_ * x;
+        for (double reach = 0.5;; reach *= 1.5) {
+            double least = scale_ * scale_ * reach * reach;
             std::int32_t best = -1;
-            index_.forEachNear(x, x, reach, [&](const Ball& ball, std::int32_t i) {
-                const double square = (ball.center - x).lengthSqr();
+            index_.forEachNear(at, at, scale_ * reach, [&](const Ball& ball, std::int32_t i) {
+                const double square = (ball.center - at).lengthSqr();
                 if (square > least || (square == least && i > best)) return;
                 least = square;
                 best = i;
@@ -84,14 +107,16 @@ public:
     }
 
 private:
-    static std::vector<Ball> asBalls(const ExcludedPoints& points)
+    /// An index has cells of 1 at least.
+    static std::vector<Ball> asBalls(const ExcludedPoints& points, double scale)
     {
         std::vector<Ball> out;
-        for (const ExcludedPoint& point : points) out.push_back({point.position, 0.0, 0});
+        for (const ExcludedPoint& point : points) out.push_back({scale * point.position, 0.0, 0});
         return out;
     }
 
     const ExcludedPoints& points_;
+    double scale_;
     BallIndex index_;
 };
 
@@ -106,13 +131,20 @@ struct Side {
 ///                      a ball farther away is beyond the rim's width from any buried point.)
 Side sideOf(const BallBoundary& boundary, const BallIndex& other, const Progress& progress)
 {
-    const ExcludedPoints all = excludedPoints(boundary, fitProbe, density, progress);
-    std::vector<char> blocked(all.size());
-    parallelFor(all.size(), progress,
-                [&](std::size_t i) { blocked[i] = isBlocked(all[i], other) ? 1 : 0; });
+    // A probe that a ball of radius R blocks is within R + fitProbe of it, its point within
+    // fitProbe of the probe, and the points of its rim within rimWidth of that.
+    const auto counts = [&](const Vec3d& centre, double radius) {
+        const double beyond = radius + 2.0 * fitProbe + rimWidth;
+        return other.anyNear(centre, centre, beyond, [&](const Ball& ball) {
+            const double reach = ball.radius + beyond;
+            return (ball.center - centre).lengthSqr() < reach * reach;
+        });
+    };
+    const ExcludedPoints all = excludedPoints(boundary, fitProbe, density, progress, counts);
+    const std::vector<char> blocked = blockedBy(other, all, progress);
     ExcludedPoints buried, open;
     for (std::size_t i = 0; i < all.size(); ++i) (blocked[i] ? buried : open).push_back(all[i]);
-    const PointIndex rim(open);
+    const PointIndex rim(open, rimCell);
     Side side;
     for (const ExcludedPoint& p : buried) side.buriedArea += p.area;
     side.trimmed = parallelCollect<ExcludedPoint>(
@@ -181,8 +213,10 @@ Report::Interface::Fit fitOf(const std::vector<Ball>& first, const std::vector<B
     const double area = 0.5 * (sideA.buriedArea + sideB.buriedArea);
     if (area > 0.0) fit.gapIndex = fit.gapVolume / area;
     if (sideA.trimmed.empty() || sideB.trimmed.empty()) return fit;
-    const auto [shapeA, distanceA] = mediansOf(sideA.trimmed, PointIndex(sideB.trimmed), progress);
-    const auto [shapeB, distanceB] = mediansOf(sideB.trimmed, PointIndex(sideA.trimmed), progress);
+    const auto [shapeA, distanceA] =
+        mediansOf(sideA.trimmed, PointIndex(sideB.trimmed, nearCell), progress);
+    const auto [shapeB, distanceB] =
+        mediansOf(sideB.trimmed, PointIndex(sideA.trimmed, nearCell), progress);
     fit.shape = 0.5 * (shapeA + shapeB);
     fit.distance = 0.5 * (distanceA + distanceB);
     return fit;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace molsurf
@@ -33,16 +34,33 @@ std::size_t countOn(double radius, double density)
     return std::size_t(std::ceil(4.0 * M_PI * radius * radius * density));
 }
 
-void addContact(const BallBoundary& boundary, const Patch& patch, double probe, double density,
-                ExcludedPoints& out)
+/// Spirals of spheres, a list for each number of points: molecules have few radii.
+class Spirals
+{
+public:
+    Spirals(const BallBoundary& boundary, double probe, double density)
+    {
+        for (const Patch& patch : boundary.patches) {
+            const std::size_t count = countOn(std::max(patch.radius - probe, 0.0), density);
+            std::vector<Vec3d>& directions = ofCount_[count];
+            if (directions.empty())
+                for (std::size_t k = 0; k < count; ++k) directions.push_back(spiral(k, count));
+        }
+    }
+
+    const std::vector<Vec3d>& of(std::size_t count) const { return ofCount_.at(count); }
+
+private:
+    std::map<std::size_t, std::vector<Vec3d>> ofCount_;
+};
+
+void addContact(const BallBoundary& boundary, const Patch& patch, double probe,
+                const std::vector<Vec3d>& directions, ExcludedPoints& out)
 {
     const double r = patch.radius - probe;
-    const std::size_t count = countOn(std::max(r, 0.0), density);
-    for (std::size_t k = 0; k < count; ++k) {
-        const Vec3d u = spiral(k, count);
-        if (isCovered(boundary, patch, u)) continue;
-        out.push_back({patch.centre + r * u, u, 4.0 * M_PI * r * r / double(count)});
-    }
+    const double area = 4.0 * M_PI * r * r / double(directions.size());
+    for (const Vec3d& u : directions)
+        if (!isCovered(boundary, patch, u)) out.push_back({patch.centre + r * u, u, area});
 }
 
 void addToric(const BallBoundary& boundary, const Arc& arc, double probe, double density,
@@ -136,19 +154,31 @@ private:
 } // namespace
 
 ExcludedPoints excludedPoints(const BallBoundary& boundary, double probe, double density,
-                              const Progress& progress)
+                              const Progress& progress,
+                              const std::function<bool(const Vec3d&, double)>& counts)
 {
     const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
     const Concave concave(boundary, probe, density);
+    const Spirals spirals(boundary, probe, density);
+    const auto wanted = [&](const Vec3d& centre, double radius) {
+        return !counts || counts(centre, radius);
+    };
     return parallelCollect<ExcludedPoint>(
         patches + arcs + boundary.corners.size(), progress,
         [&](std::size_t i, ExcludedPoints& out) {
-            if (i < patches)
-                addContact(boundary, boundary.patches[i], probe, density, out);
-            else if (i < patches + arcs)
-                addToric(boundary, boundary.arcs[i - patches], probe, density, out);
-            else
-                concave.add(boundary.corners[i - patches - arcs], out);
+            if (i < patches) {
+                const Patch& patch = boundary.patches[i];
+                const double r = std::max(patch.radius - probe, 0.0);
+                if (wanted(patch.centre, r))
+                    addContact(boundary, patch, probe, spirals.of(countOn(r, density)), out);
+            } else if (i < patches + arcs) {
+                const Arc& arc = boundary.arcs[i - patches];
+                if (wanted(arc.centre, arc.radius + probe))
+                    addToric(boundary, arc, probe, density, out);
+            } else {
+                const Corner& corner = boundary.corners[i - patches - arcs];
+                if (wanted(corner.position, probe)) concave.add(corner, out);
+            }
         });
 }
 

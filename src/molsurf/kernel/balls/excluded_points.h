@@ -8,6 +8,7 @@
 
 #include <openvdb/Types.h>
 
+#include <functional>
 #include <vector>
 
 namespace molsurf
@@ -30,8 +31,11 @@ using ExcludedPoints = std::vector<ExcludedPoint>;
 /// @param[in] boundary  of the balls of radius r_i + probe
 /// @param[in] probe     > 0 [Å]
 /// @param[in] density   of the points [1/Å^2]
+/// @param[in] counts    whether a face that lies in a ball of a centre and radius may have points
+///                      that are wanted; others are left out. Empty: all are wanted.
 /// @return in an order that depends on the boundary alone
-ExcludedPoints excludedPoints(const BallBoundary& boundary, double probe, double density,
-                              const Progress& progress);
+ExcludedPoints
+excludedPoints(const BallBoundary& boundary, double probe, double density, const Progress& progress,
+               const std::function<bool(const openvdb::Vec3d&, double)>& counts = {});
 
 } // namespace molsurf

@@ -77,7 +77,10 @@ void estimateAreaError(const EvolveOptions& options, EvolutionReport& report);
 
 /// Finds whether an interface in closed form is at rest: whether the way from it to rest has a root
 /// mean square below 2 Å times the tolerance, and is below eight times that at 99.9 % of it; on
-/// voxels above 1 Å (h/Å)^2 times as much.
+/// voxels above 1 Å (h/Å)^2 times as much. On voxels above 0.75 Å, unless a smaller tolerance than
+/// the default is asked for, it is at rest, too, where they hold nothing nearer: where the root
+/// mean square is below the sag h^2 H / 8 of a chord, H = 0.5/Å, and the way at 99.9 % is below the
+/// diagonal of a cell.
 /// @param[in]     ways       from it to rest, see waysToRest()
 /// @param[in]     voxelSize  edge h of a voxel [Å]
 /// @param[in,out] report     converged, the ways and areaError are set

@@ -60,34 +60,75 @@ float offSurface(float S, double voxelSize)
     return std::abs(S) < least ? -least : S;
 }
 
+/// Middles of walls, by the leaf that they lie in, and the leaves that have some.
+struct Middles {
+    std::vector<std::vector<Coord>> ofLeaf;
+    std::vector<std::size_t> leaves;
+};
+
+Middles middlesOf(const SparseField& S, double wall, const Progress& progress)
+{
+    Middles out;
+    out.ofLeaf.resize(S.table.size());
+    parallelFor(S.table.size(), progress,
+                [&](std::size_t n) { out.ofLeaf[n] = middleOf(S, n, wall); });
+    for (std::size_t n = 0; n < out.ofLeaf.size(); ++n)
+        if (!out.ofLeaf[n].empty()) out.leaves.push_back(n);
+    return out;
+}
+
+/// The middles of which one is the nearest to a voxel of a leaf, and is within reach [voxel].
+/// @return their places from the leaf's first voxel
+std::vector<openvdb::Vec3f> middlesNear(const Middles& middles, const LeafTable& table,
+                                        std::size_t n, double reach)
+{
+    const Coord origin = table.origin(n);
+    const openvdb::Vec3d mid(0.5 * (leafDim - 1));
+    const double halfLeaf = 0.5 * std::sqrt(3.0) * (leafDim - 1);
+    double far = halfLeaf + reach; // from the middle of the leaf
+    const int leaves = int(std::ceil(reach / leafDim)), w = 2 * leaves + 1;
+    std::vector<openvdb::Vec3f> near;
+    const auto add = [&](std::size_t m) {
+        const openvdb::Vec3d from((table.origin(m) - origin).asVec3d());
+        const double along = std::max({std::abs(from[0]), std::abs(from[1]), std::abs(from[2])});
+        if (along > leafDim * leaves || from.length() - halfLeaf > far) return;
+        for (const Coord& c : middles.ofLeaf[m]) {
+            const openvdb::Vec3d x = (c - origin).asVec3d();
+            const double away = (x - mid).length();
+            if (away >= far) continue;
+            near.emplace_back(x);
+            // No voxel is farther from its nearest one than the leaf's middle and half a leaf.
+            far = std::min(far, away + 2.0 * halfLeaf + 1e-3);
+        }
+    };
+    // Leaves of the cube that may have some, or all that have some, whichever are fewer.
+    if (std::pow(double(w), 3) < double(middles.leaves.size())) {
+        for (int k = 0; k < w * w * w; ++k) {
+            const auto step = [&](int i) { return leafDim * (i % w - leaves); };
+            const std::int32_t m =
+                table.find(origin.offsetBy(step(k / w / w), step(k / w), step(k)));
+            if (m != noLeaf) add(std::size_t(m));
+        }
+    } else {
+        for (const std::size_t m : middles.leaves) add(m);
+    }
+    const auto isFar = [&](const openvdb::Vec3f& x) {
+        return (openvdb::Vec3d(x) - mid).length() > far;
+    };
+    near.erase(std::remove_if(near.begin(), near.end(), isFar), near.end());
+    return near;
+}
+
 } // namespace
 
 void thickenWalls(DistanceBand& S, double wall, double width, const Progress& progress)
 {
     LeafTable& table = S.phi.table;
     const double h = S.phi.voxelSize;
-    std::vector<std::vector<Coord>> middle(table.size());
-    parallelFor(table.size(), progress,
-                [&](std::size_t n) { middle[n] = middleOf(S.phi, n, wall); });
-
+    const Middles middles = middlesOf(S.phi, wall, progress);
     const double radius = 0.5 * wall / h, reach = radius + width / h; // [voxel]
-    const int leaves = int(std::ceil(reach / leafDim));
     parallelFor(table.size(), progress, [&](std::size_t n) {
-        const Coord origin = table.origin(n);
-        const openvdb::Vec3d mid = origin.asVec3d() + 0.5 * (leafDim - 1);
-        const double leafReach = 0.5 * std::sqrt(3.0) * (leafDim - 1) + reach;
-        std::vector<openvdb::Vec3f> near; // middles within reach, from the origin [voxel]
-        const int w = 2 * leaves + 1;     // leaves along an edge of the cube that may have some
-        for (int k = 0; k < w * w * w; ++k) {
-            const auto step = [&](int i) { return leafDim * (i % w - leaves); };
-            const std::int32_t m =
-                table.find(origin.offsetBy(step(k / w / w), step(k / w), step(k)));
-            if (m == noLeaf) continue;
-            for (const Coord& c : middle[std::size_t(m)]) {
-                if ((c.asVec3d() - mid).lengthSqr() < leafReach * leafReach)
-                    near.emplace_back((c - origin).asVec3s());
-            }
-        }
+        const std::vector<openvdb::Vec3f> near = middlesNear(middles, table, n, reach);
         float* phi = S.phi.leaf(n);
         if (!near.empty()) {
             table.active(n).forEach([&](int v) {

@@ -23,6 +23,7 @@
 #include "molsurf/kernel/pipeline/derived_grids.h"
 #include "molsurf/kernel/pipeline/fill_cavities.h"
 #include "molsurf/kernel/pipeline/remesh_run.h"
+#include "molsurf/kernel/spline/curvature.h"
 #include "molsurf/kernel/spline/fit.h"
 #include "molsurf/kernel/topology/gaps_of_sum.h"
 #include "molsurf/kernel/topology/walls.h"

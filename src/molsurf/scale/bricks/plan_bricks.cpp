@@ -11,7 +11,7 @@
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/molecule/selection/subset.h"
 #include "molsurf/surface/field_table.h"
-#include "molsurf/surface/pockets.h"
+#include "molsurf/surface/product_cost.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -33,30 +33,30 @@ namespace
 // 0.5 to 3 Å, with Debian's OpenVDB: peaks of the resident memory against the leaves that hold
 // atoms or lie beside them. A peak is either that of the flow and the distances, or that of the
 // mesh. The surface of a larger probe passes fewer balls, and fewer of those leaves.
-#ifdef OPENVDB_STATICLIB              // the names of libopenvdb.so take 28 MB
-constexpr double processBytes = 32e6; // program, libraries, buffers
-#else
-constexpr double processBytes = 60e6;
-#endif
 constexpr double bytesPerAtom = 40.0;           // of the whole molecule, where it is in memory
-constexpr double bytesPerNear = 135.0;          // of the balls near a brick: cell lists, copies
+constexpr double bytesPerNear = 205.0;          // of the balls near a brick: cell lists, copies
 constexpr double bytesPerBoundaryBall = 1.55e3; // of those: the boundary of their union
 constexpr double bytesPerFlowLeaf = 10e3;       // within the halo of the flow
 constexpr double bytesPerCoarseLeaf = 2.2e3;    // of the whole at rest on voxels twice as large
-constexpr double bytesPerMeshLeaf = 11e3;       // within the halo of the spline
-constexpr double bytesPerUnionLeaf = 14.5e3;    // the same where the surface may pass each atom
-constexpr double sharePerProbe = 0.4;           // fewer of both, for each Å of the probe
-constexpr double bytesPerExcludedBall = 3.9e3;  // ses in closed form, which only a whole has
-constexpr double fewerPerProbe3 = 0.63;         // of these, for each Å^3 of the probe's cube
+constexpr double bytesPerDistanceLeaf = 2e3;    // within the halo of the spline, beside boundaries
+constexpr double bytesPerMeshLeaf = 10e3;       // the same of the mesh
+constexpr double bytesPerUnionLeaf = 8.5e3;     // of the mesh of a union
+constexpr double bytesPerGaussLeaf = 9.5e3;     // of that of a Gaussian surface
+constexpr double morePerGaussVoxel = 2.2e3;     // for each Å of the voxel: it has more triangles
+constexpr double sharePerProbe = 0.4; // fewer balls of boundaries, for each Å of the probe
+constexpr double bytesPerExcludedBall = 3.4e3; // ses in closed form, which only a whole has
+constexpr double fewerPerProbe3 = 0.9;         // of these, for each Å^3 of the probe's cube
 constexpr double bytesPerKeptLeaf = 7e3; // of the flow, where these are kept for the next brick
 constexpr double bytesPerValueOfLeaf = 2.5e3; // of a grid that goes along with the surface
-// On one core of a Xeon of 2.6 GHz: on 6ZU5 and 1K4R at 0.5 and 1 Å, both kinds, these give 0.75 to
-// 1.2 times what was measured.
-constexpr double secondsPerLeaf = 0.09e-3, secondsPerFlowLeaf = 0.11e-3;
+// On one core of a Xeon of 2.6 GHz: bench/estimates.py.
+constexpr double secondsPerAtom = 5.5e-6; // reading, copies, labels
+constexpr double secondsPerLeaf = 0.08e-3, secondsPerFlowLeaf = 0.09e-3;
+constexpr double secondsPerGaussLeaf = 0.12e-3;
+constexpr double timesOfFill = 1.8;   // of all after the flow, where cavities are filled
 constexpr double timesOfFronts = 3.5; // of the flow, where fronts move far: 2.5, seldom 6
 // measured: build --flow paper of 1CRN, 1UBQ, 4HHB at 0.5 and 1 Å: 0.08 to 0.14.
 constexpr double timesPerPaperStep = 0.12; // of the flow
-constexpr double secondsPerBoundaryBall = 15e-6;
+constexpr double secondsPerBoundaryBall = 12e-6;
 // Of surfaces that are stored, 1UBQ to 4V5A at 0.2 to 1 Å: the seconds are 0.6 to 1.6 times what
 // was measured, the memory 0.9 to 1.4 times.
 constexpr double secondsOfStart = 0.03, secondsPerSplineLeaf = 0.05e-3;
@@ -65,23 +65,13 @@ constexpr double bytesOfPlyPerVoxel = 12.0, bytesPerReadVoxel = 44.0;       // o
 constexpr double secondsPerComparedVoxel = 0.6e-6;                          // more from afar
 // measured: convert of sas, 4AT1 and 1CRN at 1 and 0.7 Å, 300 to 2400 pixels: 1.2 to 1.5 times
 // the peak.
-constexpr double bytesPerPixel = 85.0, secondsPerPixel = 3e-6; // of a square picture
+constexpr double bytesPerPixel = 75.0, secondsPerPixel = 3e-6; // of a square picture
 // measured: build --opacity 0.4 --all-walls, or --show pockets, of 1CRN, 4AT1, 1EHZ, 1AOI, 1IGY,
 // 1HZH, 4HHB, 1U19: 1.0 to 1.8 times the peak.
-constexpr double bytesPerLayeredPixel = 80.0;                              // more
+constexpr double bytesPerLayeredPixel = 65.0;                              // more
 constexpr double bytesPerDrawnVoxel = 94.0, secondsPerDrawnVoxel = 0.5e-6; // rays find triangles
-// measured: build --pockets of 1CRN, 1D3Z, 4AT1, 6ZU5 on voxels of 0.25 to 1 Å, --probe-out 3 to
-// 50: 1.0 to 1.5 times the peak.
-constexpr double bytesOfPocketsPerBall = 3.9e3, secondsOfPocketsPerBall = 1e-4; // voxels of 1 Å
-// measured: --tunnels-from of 1ACJ and 4AT1, --tunnel-probe 0.3 to 1.4
-constexpr double secondsOfTunnelsPerBall = 1e-4;
-constexpr double morePerProbeOut = 0.12, morePerProbeOut2 = 4e-3; // of both, for each Å above 4
 // measured: -o FILE.dx of two molecules 1e6 Å apart on voxels of 3 Å; .mrc takes a fifth.
 constexpr double secondsPerMapPoint = 7e-8;
-// measured: build --surface ses -o NAME.atoms.csv, or .interfaces.csv, of 4HHB, 1AOI, 4V5A, which
-// takes a quarter to all of it.
-constexpr double bytesPerArea = 5e3, secondsPerArea = 0.15e-3;
-constexpr double bytesPerFit = 12e3, secondsPerFit = 1.1e-3; // more, where pairs are measured
 constexpr double bytesToMerge =
     7.0; // an active voxel: leaves without values, statistics of vertices
 constexpr double voxelsPerLeaf = 180.0; // active ones of the grid `surface`
@@ -289,6 +279,7 @@ int valuesAlong(const SurfaceOptions& options)
 /// @param[in] leaves  within the halo of the flow
 double secondsOfFlow(const SurfaceOptions& options, double leaves)
 {
+    if (isGaussian(rowOf(options.kind))) return secondsPerGaussLeaf * leaves;
     const EvolveOptions& flow = options.evolution;
     const bool fronts = hasFlow(options.kind) && makesNewtonSteps(flow) && !decidesGaps(flow);
     double times = fronts ? timesOfFronts : 1.0;
@@ -315,11 +306,25 @@ public:
           atomsHeld_(double(atoms_)),
           occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), most, progress)),
           weight_(occupancy_.sample.every),
-          excluded_(isMeasured(options) && offsetOf(options) > 0.0)
+          excluded_(options.closedForm && isMeasured(options) && offsetOf(options) > 0.0)
     {
     }
 
     const CoordBBox& box() const { return occupancy_.box; }
+
+    /// So many voxels are expected of the whole, which leaves near balls alone do not show.
+    /// @param[in] power  of the share of these leaves where it is below 1: a half of bricks, some
+    /// of
+    ///                   which have more of the surface than others
+    void expect(double voxels, double power)
+    {
+        const double counted = leavesOf(double(occupancy_.leaves.size()));
+        // The distances from a wide probe's surface fill more than the band of the one inside.
+        constexpr double least = 0.35;
+        if (voxels <= 0.0 || counted <= 0.0) return;
+        const double share = std::max(least, voxels / (voxelsPerLeaf * counted));
+        share_ = share < 1.0 ? std::pow(share, power) : share;
+    }
 
     /// Whether estimates are of processes that keep the memory of one brick for the next.
     void setKeeping(bool keeping) { keeping_ = keeping; }
@@ -344,8 +349,7 @@ public:
         splined.expand(scope.splineHalo);
         flowed.expand(widest);
         near.expand(widest + reach);
-        // Leaves of the options' voxels for each that is listed: a surface's grow by the square.
-        const double count = weight_ * std::pow(grain_ / options_.voxel, 2);
+        const double count = leavesOf(1.0) * share_;
         double own = 0, inSpline = 0, inFlow = 0;
         std::size_t balls = 0;
         for (std::size_t n = 0; n < occupancy_.leaves.size(); ++n) {
@@ -360,26 +364,10 @@ public:
         }
         // Grids with wider bands may have leaves in a box that holds no other.
         brick.voxels = std::max(std::size_t(voxelsPerLeaf * own), std::size_t(inSpline > 0.0));
-        const double share = 1.0 / (1.0 + sharePerProbe * probeOf(options_));
-        const double perBall =
-            bytesPerNear + (isUnion(options_.kind) ? share * bytesPerBoundaryBall : 0.0);
-        const double forFlow = bytesPerFlowLeaf * inFlow;
-        const double coarse = startsCoarse(options_) ? bytesPerCoarseLeaf * coarseLeaves() : 0.0;
-        const double perLeaf =
-            hasFlow(options_.kind) ? bytesPerMeshLeaf : share * bytesPerUnionLeaf;
-        // The stages after the flow run twice, the second time beside the first level set.
-        const double filled = options_.fillCavities ? 1.45 : 1.0;
-        const double probe = probeOf(options_);
-        const double forClosedForm = excluded_ && box == occupancy_.box
-                                         ? bytesPerExcludedBall * double(balls) /
-                                               (1.0 + fewerPerProbe3 * probe * probe * probe)
-                                         : 0.0;
-        const double forMesh = std::max(filled * perLeaf * inSpline, forClosedForm);
-        brick.bytes = std::size_t(
-            processBytes + coarse + bytesPerAtom * atomsHeld_ + perBall * double(balls) +
-            (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh : std::max(forFlow, forMesh)) +
-            bytesPerValueOfLeaf * valuesAlong(options_) * own);
-        brick.seconds = filled * secondsPerLeaf * inSpline +
+        brick.bytes = std::size_t(bytesOf(double(balls), inFlow, inSpline, box == occupancy_.box) +
+                                  bytesPerValueOfLeaf * valuesAlong(options_) * own);
+        const double filled = options_.fillCavities ? timesOfFill : 1.0;
+        brick.seconds = filled * secondsPerLeaf * inSpline + secondsPerAtom * double(balls) +
                         (isUnion(options_.kind) ? secondsPerBoundaryBall * double(balls)
                                                 : secondsOfFlow(options_, inFlow));
         return brick;
@@ -389,8 +377,7 @@ public:
     double coarseLeaves() const
     {
         constexpr double share = 0.3; // a fourth for a surface, and its band is wider
-        return share * std::pow(grain_ / options_.voxel, 2) * weight_ *
-               double(occupancy_.leaves.size());
+        return share * share_ * leavesOf(double(occupancy_.leaves.size()));
     }
 
     /// Peak memory of the flow of the whole on voxels twice as large [byte].
@@ -495,6 +482,38 @@ public:
     }
 
 private:
+    /// Leaves of the options' voxels for those that are listed: a surface's grow by the square.
+    double leavesOf(double listed) const
+    {
+        return listed * weight_ * std::pow(grain_ / options_.voxel, 2);
+    }
+
+    /// The larger of three peaks on top of what is always there: the boundaries of balls with the
+    /// distances from them, the flow, and the mesh.
+    /// @param[in] balls  near the brick
+    double bytesOf(double balls, double inFlow, double inSpline, bool whole) const
+    {
+        const double h = options_.voxel, probe = probeOf(options_);
+        const double always = processBytes + bytesPerAtom * atomsHeld_ + bytesPerNear * balls +
+                              (startsCoarse(options_) ? bytesPerCoarseLeaf * coarseLeaves() : 0.0);
+        const double ofBoundary =
+            isUnion(options_.kind) ? bytesPerBoundaryBall / (1.0 + sharePerProbe * probe) : 0.0;
+        const double ofClosedForm =
+            excluded_ && whole
+                ? bytesPerExcludedBall / (1.0 + fewerPerProbe3 * probe * probe * probe)
+                : 0.0;
+        const double forBalls =
+            (ofBoundary + ofClosedForm) * balls + bytesPerDistanceLeaf * inSpline;
+        const double perLeaf = hasFlow(options_.kind)   ? bytesPerMeshLeaf
+                               : isUnion(options_.kind) ? bytesPerUnionLeaf
+                                                        : bytesPerGaussLeaf + morePerGaussVoxel * h;
+        // The stages after the flow run twice, the second time beside the first level set.
+        const double filled = options_.fillCavities ? timesOfFill : 1.0;
+        const double forMesh = std::max(filled * perLeaf * inSpline, forBalls);
+        return always + (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh
+                                  : std::max(bytesPerFlowLeaf * inFlow, forMesh));
+    }
+
     static void keep(const PlannedBrick& brick, std::vector<PlannedBrick>& out)
     {
         if (brick.voxels > 0) out.push_back(brick);
@@ -507,8 +526,9 @@ private:
     std::size_t atoms_;
     double atomsHeld_; // by the process of a brick
     Occupancy occupancy_;
-    unsigned weight_; // leaves for which one of the sample stands
-    bool excluded_;   // whether the whole has the closed form of a solvent-excluded surface
+    double share_ = 1.0; // of the leaves that are counted, those that are expected
+    unsigned weight_;    // leaves for which one of the sample stands
+    bool excluded_;      // whether the whole has the closed form of a solvent-excluded surface
 };
 
 double secondsOf(const std::vector<PlannedBrick>& bricks)
@@ -526,9 +546,17 @@ int stepsOf(const SurfaceOptions& options)
     return startsCoarse(options) ? BrickPlan::defaultFrontSteps : BrickPlan::defaultSteps;
 }
 
+/// How the leaves of a plan are counted.
+struct Counting {
+    double grain;        ///< see Planner
+    double most;         ///< see Planner
+    double voxels = 0.0; ///< that are expected; 0: those of the leaves that are counted
+    double power = 1.0;  ///< see Planner::expect()
+};
+
 /// Cuts by the limits; without any the whole is one brick.
 BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
-                   const BrickLimits& limits, double grain, double most, const Progress& progress)
+                   const BrickLimits& limits, const Counting& counting, const Progress& progress)
 {
     checkBalls(atoms.balls, options, Pieces::Bricks,
                limits.memory > 0 ? limits.memory : availableMemory());
@@ -538,7 +566,8 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
     plan.maxTolerance = influence.extent().maxTolerance;
     plan.atoms = atoms.balls.size();
     plan.steps = stepsOf(options);
-    Planner planner(atoms, options, influence, grain, most, progress);
+    Planner planner(atoms, options, influence, counting.grain, counting.most, progress);
+    planner.expect(counting.voxels, counting.power);
     if (limits.atomsOnDisk) planner.readFromDisk();
     const CoordBBox& box = planner.box();
     if (limits.memory > 0) {
@@ -582,6 +611,17 @@ double bytesOfNodes(const std::vector<Ball>& balls, double voxel)
     return nodes.size() > compact ? ofBoth * double(nodes.size() - compact) : 0.0;
 }
 
+/// Adds what products take beside the level set and the mesh that are kept for them.
+void addProducts(const BallSet& atoms, const SurfaceOptions& options, const SurfaceSize& size,
+                 PlannedBrick& whole)
+{
+    const Cost cost = costOfProducts(atoms, options, size);
+    const double held = processBytes + bytesPerAtom * size.balls + keptBytes(size) +
+                        bytesPerValueOfLeaf * valuesAlong(options) * size.voxels / voxelsPerLeaf;
+    if (cost.bytes > 0.0) whole.bytes = std::max(whole.bytes, std::size_t(held + cost.bytes));
+    whole.seconds += cost.seconds;
+}
+
 } // namespace
 
 BrickPlan planBricks(const BallSet& atoms, const SurfaceOptions& options, const BrickLimits& limits,
@@ -589,8 +629,8 @@ BrickPlan planBricks(const BallSet& atoms, const SurfaceOptions& options, const 
 {
     checkWay(InBricks, options);
     constexpr double all = std::numeric_limits<double>::infinity();
-    return makePlan(atoms, options, Influence(atoms, options), limits, options.voxel, all,
-                    progress);
+    return makePlan(atoms, options, Influence(atoms, options), limits,
+                    {options.voxel, all, sizeOf(atoms, options).voxels, 0.5}, progress);
 }
 
 BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const Progress& progress)
@@ -598,12 +638,11 @@ BrickPlan planWhole(const BallSet& atoms, const SurfaceOptions& options, const P
     const Influence influence(atoms, options);
     const double grain = grainOf(atoms.balls, options.voxel, influence.ofSurface());
     constexpr double most = 1.5e6; // leaves, in 18 MB
-    BrickPlan plan = makePlan(atoms, options, influence, {1, 0}, grain, most, progress);
-    PlannedBrick& whole = plan.bricks[0];
-    const PlannedBrick pockets = costOfPockets(atoms, options);
-    whole.bytes += std::size_t(bytesOfNodes(atoms.balls, options.voxel));
-    whole.bytes = std::max(whole.bytes, pockets.bytes);
-    whole.seconds += pockets.seconds;
+    const SurfaceSize size = sizeOf(atoms, options);
+    BrickPlan plan =
+        makePlan(atoms, options, influence, {1, 0}, {grain, most, size.voxels}, progress);
+    plan.bricks[0].bytes += std::size_t(bytesOfNodes(atoms.balls, options.voxel));
+    addProducts(atoms, options, size, plan.bricks[0]);
     return plan;
 }
 
@@ -641,23 +680,29 @@ void checkCost(const PlannedBrick& surface, const RunLimits& limits)
 double checkCost(const BallSet& atoms, const SurfaceOptions& options, const RunLimits& limits,
                  const Progress& progress)
 {
-    checkBalls(atoms.balls, options, Pieces::One, limits.memory);
-    // Bounds first, with factors of 4 and 2 to spare: most surfaces are far below the limits, and
-    // need no plan.
-    const double leaves =
-        leavesAtMost(atoms.balls, options.voxel, Influence(atoms, options).ofSurface());
+    checkBalls(atoms.balls, options, options.grid ? Pieces::One : Pieces::NoGrid, limits.memory);
+    // Bounds first, with a factor of 2 to spare: most surfaces are far below the limits, and need
+    // no plan.
+    constexpr double mostPerLeaf = 512.0, bytesAtMost = 60e3;
+    const double leaves = options.grid ? leavesAtMost(atoms.balls, options.voxel,
+                                                      Influence(atoms, options).ofSurface())
+                                       : 0.0;
     const double balls = double(atoms.balls.size());
-    const PlannedBrick pockets = costOfPockets(atoms, options);
-    const double bytes =
-        processBytes + double(limits.besides.bytes) + double(pockets.bytes) +
-        (bytesPerAtom + bytesPerNear + bytesPerBoundaryBall) * balls +
-        (4.0 * bytesPerUnionLeaf + bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
-    const double seconds = limits.besides.seconds + pockets.seconds +
-                           2.0 * (secondsPerLeaf * leaves + secondsOfFlow(options, leaves)) +
-                           secondsPerBoundaryBall * balls;
+    const Cost products =
+        costOfProducts(atoms, options, mostOf(atoms, options, mostPerLeaf * leaves));
+    const double bytes = processBytes + double(limits.besides.bytes) + products.bytes +
+                         (bytesPerAtom + bytesPerNear + bytesPerBoundaryBall +
+                          (options.closedForm ? bytesPerExcludedBall : 0.0)) *
+                             balls +
+                         (bytesAtMost + 3.0 * bytesPerValueOfLeaf * valuesAlong(options)) * leaves;
+    const double seconds = limits.besides.seconds + products.seconds +
+                           3.0 * (secondsPerLeaf * leaves + secondsOfFlow(options, leaves)) +
+                           (secondsPerAtom + secondsPerBoundaryBall) * balls;
     if (bytes < double(limits.memory) && seconds < 3600.0 * limits.hours * limits.threads)
         return seconds;
-    const PlannedBrick cost = planWhole(atoms, options, progress).bricks[0];
+    const PlannedBrick cost =
+        (options.grid ? planWhole(atoms, options, progress) : planWithoutGrid(atoms, options))
+            .bricks[0];
     checkCost(cost, limits);
     return cost.seconds + limits.besides.seconds;
 }
@@ -709,37 +754,20 @@ PlannedBrick costOfMap(const BallSet& atoms, const SurfaceOptions& options)
     return cost;
 }
 
-PlannedBrick costOfAreas(std::size_t balls, bool ofPairs)
-{
-    PlannedBrick cost;
-    cost.bytes = std::size_t((bytesPerArea + (ofPairs ? bytesPerFit : 0.0)) * double(balls));
-    cost.seconds = (secondsPerArea + (ofPairs ? secondsPerFit : 0.0)) * double(balls);
-    return cost;
-}
-
-BrickPlan planWithoutGrid(const BallSet& atoms)
+BrickPlan planWithoutGrid(const BallSet& atoms, const SurfaceOptions& options)
 {
     BrickPlan plan;
     plan.atoms = atoms.balls.size();
-    plan.bricks.resize(1);
-    plan.bricks[0].bytes = std::size_t(processBytes);
-    plan.bricks[0].seconds = secondsOfStart;
+    PlannedBrick& one = plan.bricks.emplace_back();
+    const SurfaceSize size = sizeOf(atoms, options);
+    const double probe = probeOf(options), probe3 = probe * probe * probe;
+    double perBall =
+        bytesPerAtom + bytesPerNear + bytesPerBoundaryBall / (1.0 + sharePerProbe * probe);
+    if (offsetOf(options) > 0.0) perBall += bytesPerExcludedBall / (1.0 + fewerPerProbe3 * probe3);
+    one.bytes = std::size_t(processBytes + perBall * size.balls);
+    one.seconds = secondsOfStart + (secondsPerAtom + secondsPerBoundaryBall) * size.balls;
+    addProducts(atoms, options, size, one);
     return plan;
-}
-
-PlannedBrick costOfPockets(const BallSet& atoms, const SurfaceOptions& options)
-{
-    PlannedBrick cost;
-    const double balls = double(atoms.balls.size()), h = options.voxel;
-    const double tunnels = atoms.tunnelsFrom ? secondsOfTunnelsPerBall * balls : 0.0;
-    cost.seconds = tunnels;
-    if (!wantsPockets(options)) return cost;
-    const double wider = std::max(options.pocket.probeOut - 4.0, 0.0);
-    const double wide = 1.0 + morePerProbeOut * wider + morePerProbeOut2 * wider * wider;
-    cost.bytes =
-        std::size_t(processBytes + bytesOfPocketsPerBall * wide * balls * std::pow(h, -2.1));
-    cost.seconds = tunnels + secondsOfPocketsPerBall * wide * balls / h;
-    return cost;
 }
 
 PlannedBrick costOfPicture(std::size_t voxels, int width, bool isLayered)

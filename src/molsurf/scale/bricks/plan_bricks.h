@@ -61,16 +61,8 @@ PlannedBrick costOfPicture(std::size_t voxels, int width, bool isLayered);
 /// Cost of writing the level set on all points of its box, one by one.
 PlannedBrick costOfMap(const BallSet& atoms, const SurfaceOptions& options);
 
-/// Cost of the areas of so many balls in closed form, beside that of a surface.
-/// @param[in] ofPairs  whether the fit of groups to each other is measured, too
-PlannedBrick costOfAreas(std::size_t balls, bool ofPairs);
-
-/// The plan of a run without a grid, whose areas come on top: one brick without voxels.
-BrickPlan planWithoutGrid(const BallSet& atoms);
-
-/// Cost of finding the pockets of a surface, if its options ask for them. The memory is that of the
-/// process, in the place of what the surface takes.
-PlannedBrick costOfPockets(const BallSet& atoms, const SurfaceOptions& options);
+/// The plan of a run without a grid: one brick without voxels.
+BrickPlan planWithoutGrid(const BallSet& atoms, const SurfaceOptions& options);
 
 /// Checks the numbers of a plan that was read from a file, which could prolong a run or lead it out
 /// of space: its steps are those that the options say, and its bricks are boxes of whole leaves.
