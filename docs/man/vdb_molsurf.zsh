@@ -7,7 +7,7 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'tunnels.ply' 'tunnels.obj' 'tunnels.glb' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'nvdb' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'tunnels.ply' 'tunnels.obj' 'tunnels.glb' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
     "build:--superpose") compadd -- 'auto'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
@@ -64,7 +64,7 @@ case "$verb:$words[CURRENT-1]" in
     "compare:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
-    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
+    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'nvdb' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
@@ -114,7 +114,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--superpose:lay B on A, structures of --panel on INPUT or frames on the'
       '--max-input:bytes that INPUT may have, unpacked, such as 10G'
       '--frames:a surface for every S-th frame from A to B\: models of'
-      '--trajectory:.dcd or .xtc with the frames, its atoms those of INPUT'
+      '--trajectory:.dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT'
       '--update-selections:selections by distance, as within 5 of resn HEM, are those'
       '--first-frame:number of the first file, such as 1001\: name.1001.vdb, ...'
       '--fps:frames per second, such as 24\: velocities of --fields v'
@@ -384,6 +384,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '-o:file to write; repeats; the extension says what\:'
       '--format:what -o - writes\: one of'
       '--force:replace existing files'
+      '--iso:of a map\: the level set where it has this value, negative'
       '--remesh:triangles of even shape, with edges near L [Å]'
       '--density:the same with N vertices per Å^2 of surface'
       '--adapt:with --remesh or --density\: shorter edges where it bends,'
