@@ -66,7 +66,7 @@ def main():
                     chosen = chance.sample(site, min(count or len(site), len(site)))
                     start = start_of(program, path, chosen, scratch)
                     right[count].append(start is not None and min(math.dist(start, atom) for atom in ligand) < 2.5)
-    right["in all"] = [one for some in list(right.values()) for one in some]
+    right["any number of"] = [one for some in list(right.values()) for one in some]
     for count, some in right.items():
         print(f"{count or 'all'} residues: {100 * sum(some) / len(some):.0f} % of {len(some)}")
 

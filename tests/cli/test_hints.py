@@ -388,8 +388,8 @@ CASES = {
          "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnels.csv"),
         ("a larger --probe-out", "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,40,3 -o a.tunnels.csv",
          "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,-4,3 --probe-out 5 -o a.tunnels.csv"),
-        ("a smaller --tunnel-probe", "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' --tunnel-probe 1.35 -o a.tunnels.csv",
-         "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' --tunnel-probe 1.2 -o a.tunnels.csv")],
+        ("a smaller --tunnel-probe", "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,0,3.9 --tunnel-probe 1.35 -o a.tunnels.csv",
+         "vdb_molsurf 1grm.pdb.gz --tunnels-from 0,0,3.9 --tunnel-probe 1.2 -o a.tunnels.csv")],
     "surface/pockets.cpp": [
         ("--voxel 0.7", "vdb_molsurf 1crn.pdb --voxel 1 -o a.pockets.csv", "vdb_molsurf 1crn.pdb --voxel 0.7 -o b.pockets.csv"),
         ("--surface ses", "vdb_molsurf 1crn.pdb --color pocket --voxel 0.7 -o a.ply",
