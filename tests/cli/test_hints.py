@@ -230,8 +230,8 @@ CASES = {
         ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
     "scale/bricks/plan_bricks.cpp": [
-        (f"--memory {65 if LIBRARY else 35}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply",
-         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {65 if LIBRARY else 35}M -o a.ply"),
+        (f"--memory {56 if LIBRARY else 26}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {21 + LIBRARY}M -o a.ply",
+         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {56 if LIBRARY else 26}M -o a.ply"),
         ("or a larger --voxel", f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 0.1 -o a.ply",
          f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 2 -o a.ply")],
     "scale/bricks/plan_bricks.h": [
@@ -254,8 +254,6 @@ CASES = {
     "surface/product_table.cpp": [
         ("in one piece", "vdb_molsurf bricks plan 1crn.pdb --bricks 2 --voxel 2 --color mean-curvature -o plan.json",
          "vdb_molsurf 1crn.pdb --voxel 2 --color mean-curvature -o a.ply"),
-        ("in one piece", "vdb_molsurf 1crn.pdb --voxel 0.2 --memory 62M --fill-cavities -o a.ply",
-         "vdb_molsurf 1crn.pdb --voxel 0.2 --fill-cavities -o a.ply"),
         ("without --by-symmetry", f"vdb_molsurf 1a8o.cif.gz --assembly 1 --by-symmetry --fill-cavities {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 --fill-cavities {FAST} -o a.ply")],
     "surface/parts.cpp": [
@@ -407,14 +405,14 @@ CASES = {
         ("--surface", f"vdb_molsurf 1crn.pdb --voxel 1 -o a.ply -o a.residues.csv",
          "vdb_molsurf 1crn.pdb --voxel 1 --surface ses -o b.ply -o b.residues.csv"),
         ("fewer atoms by --select, or --max-hours 1",
-         "vdb_molsurf 1crn.pdb --group-by residues:23 -o a.interfaces.csv -j 1 --max-hours 1e-4",
-         "vdb_molsurf 1crn.pdb --group-by residues:23 -o a.interfaces.csv -j 1 --max-hours 1",
-         "vdb_molsurf 1crn.pdb --group-by residues:23 -o b.interfaces.csv -j 1 --max-hours 1e-4 --select 'resid 18-28'"),
-        ("a plan of more bricks, or --max-hours 1", "vdb_molsurf bricks plan 1crn.pdb --voxel 0.3 --bricks 2 -o plan.json; "
-         "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 8.5e-5",
+         "vdb_molsurf 1crn.pdb --group-by residues:1 -o a.interfaces.csv -j 1 --max-hours 7e-5",
+         "vdb_molsurf 1crn.pdb --group-by residues:1 -o a.interfaces.csv -j 1 --max-hours 1",
+         "vdb_molsurf 1crn.pdb --group-by residues:1 -o b.interfaces.csv -j 1 --max-hours 7e-5 --select 'resid 18-23'"),
+        ("a plan of more bricks, or --max-hours 1", "vdb_molsurf bricks plan 1crn.pdb --voxel 0.15 --bricks 2 -o plan.json; "
+         "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 2.2e-4",
          "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 1",
-         "vdb_molsurf bricks plan 1crn.pdb --voxel 0.3 --bricks 8 -o plan.json --force; "
-         "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 8.5e-5 --force"),
+         "vdb_molsurf bricks plan 1crn.pdb --voxel 0.15 --bricks 12 -o plan.json --force; "
+         "vdb_molsurf bricks run plan.json 1 -j 1 --max-hours 2.2e-4 --force"),
         ("a surface of a larger --voxel, or --max-hours 1", "vdb_molsurf 1crn.pdb --voxel 0.1 --surface sas -o a.vdb; "
          "vdb_molsurf convert a.vdb -j 1 -o a.ply --max-hours 3e-4",
          "vdb_molsurf convert a.vdb -j 1 -o a.ply --max-hours 1",
@@ -440,8 +438,10 @@ CASES = {
          "vdb_molsurf 1crn.pdb --voxel 2 --surface sas -o b.vdb; "
          "vdb_molsurf convert b.vdb -o b.ply --max-hours 1e-5")],
     "tools/build_in_bricks.cpp": [
-        ("without --memory", "vdb_molsurf 1crn.pdb --memory 80M --voxel 0.15 --center -o a.ply",
+        ("without --memory", f"vdb_molsurf 1crn.pdb --memory {50 + LIBRARY}M --voxel 0.15 --center -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 0.15 --center -o a.ply"),
+        ("--memory ", f"vdb_molsurf 1crn.pdb --voxel 0.2 --memory {40 + LIBRARY}M --fill-cavities -o a.ply",
+         f"vdb_molsurf 1crn.pdb --voxel 0.2 --memory {62 + LIBRARY}M --fill-cavities -o a.ply"),
         ("--memory ", "vdb_molsurf 1crn.pdb --voxel 2 --memory 10M -o a.ply", # and then the hint that follows
          f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply || vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply")],
     "surface/solver_files.cpp": [
@@ -573,8 +573,8 @@ CASES = {
          "vdb_molsurf compare a.ply a.ply -j 64 --max-hours 1"),
         ("-o .ply", "vdb_molsurf compare open.ply solid.ply -o a.vdb",
          "vdb_molsurf compare open.ply solid.ply -o a.ply"),
-        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.8",
-         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.8 --tolerance 0.03",
+        ("a larger --tolerance or a smaller --voxel", "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.75",
+         "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.75 --tolerance 0.03",
          "vdb_molsurf compare 1crn.pdb solid.ply --epsilon 0.1 --voxel 0.4")],
     "tools/outputs.cpp": [
         ("more --steps", "vdb_molsurf one.xyzr --voxel 1 --steps 0 -o a.ply", "vdb_molsurf one.xyzr --voxel 1 --steps 4 -o b.ply"),
@@ -585,10 +585,11 @@ CASES = {
          "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 --flow newton $(cat t) -o b.ply",
          "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 --flow newton -o a.ply --force 2>&1 | sed -n 's/.*\\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
          "vdb_molsurf 1crn.pdb --epsilon 0.05 --voxel 0.8 --flow newton $(cat t) -o c.ply"),
-        ("--flow newton makes steps", "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 -o a.ply",
-         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 --flow newton -o b.ply", "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.4 -o c.ply",
-         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 -o a.ply --force 2>&1 | sed -n 's/.*\\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
-         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 $(cat t) -o d.ply"),
+        ("--flow newton makes steps", "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.75 -o a.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.75 --flow newton -o b.ply", "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.4 -o c.ply",
+         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.75 -o a.ply --force 2>&1 | sed -n 's/.*\\(--tolerance [0-9.]*\\).*/\\1/p' > t; "
+         "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.75 $(cat t) -o d.ply"),
+        ("a smaller --voxel", "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.8 -o e.ply", "vdb_molsurf 1crn.pdb --epsilon 0.1 --voxel 0.4 -o f.ply"),
         ("--flow newton", "vdb_molsurf 1crn.pdb --voxel 1 --flow paper --max-steps 5 -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 1 --flow newton -o b.ply")],
     "tools/msms/call.cpp": [
@@ -732,9 +733,9 @@ class Hints(Followed):
     @needs("memory")
     def test_little_memory(self):
         self.follow("scale/bricks/plan_bricks.h", "or --memory 0.31G, which makes it in bricks",
-                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.25 -o a.vdb",
+                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.195 -o a.vdb",
                     "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.4 -o b.vdb",
-                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.25 --memory 0.31G -o c.vdb")
+                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.195 --memory 0.31G -o c.vdb")
         self.follow("tools/build.cpp", "a surface of a larger --voxel",
                     "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 250000; "
                     "vdb_molsurf convert a.vdb -o a.ply",
