@@ -360,7 +360,7 @@ struct Report {
     struct Tunnels {
         /// A way from the start to the outside.
         struct Tunnel {
-            std::size_t number = 0; ///< from 1; over frames one for each tunnel
+            std::size_t number = 0;                ///< from 1; over frames one for each tunnel
             std::vector<Pore::Station> stations{}; ///< from the start on; their distances are along
                                                    ///< the way, and their balls touch three atoms
             double length() const { return stations.back().distance; }

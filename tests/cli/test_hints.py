@@ -230,8 +230,8 @@ CASES = {
         ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
     "scale/bricks/plan_bricks.cpp": [
-        (f"--memory {56 if LIBRARY else 26}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {21 + LIBRARY}M -o a.ply",
-         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {56 if LIBRARY else 26}M -o a.ply"),
+        (f"--memory {62 if LIBRARY else 33}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {21 + LIBRARY}M -o a.ply",
+         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {62 if LIBRARY else 33}M -o a.ply"),
         ("or a larger --voxel", f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 0.1 -o a.ply",
          f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 2 -o a.ply")],
     "scale/bricks/plan_bricks.h": [
@@ -441,7 +441,7 @@ CASES = {
         ("without --memory", f"vdb_molsurf 1crn.pdb --memory {50 + LIBRARY}M --voxel 0.15 --center -o a.ply",
          "vdb_molsurf 1crn.pdb --voxel 0.15 --center -o a.ply"),
         ("--memory ", f"vdb_molsurf 1crn.pdb --voxel 0.2 --memory {40 + LIBRARY}M --fill-cavities -o a.ply",
-         f"vdb_molsurf 1crn.pdb --voxel 0.2 --memory {62 + LIBRARY}M --fill-cavities -o a.ply"),
+         f"vdb_molsurf 1crn.pdb --voxel 0.2 --memory {68 + LIBRARY}M --fill-cavities -o a.ply"),
         ("--memory ", "vdb_molsurf 1crn.pdb --voxel 2 --memory 10M -o a.ply", # and then the hint that follows
          f"vdb_molsurf 1crn.pdb --voxel 2 --memory {29 + LIBRARY}M -o a.ply || vdb_molsurf 1crn.pdb --voxel 2 --memory 0.1G -o a.ply")],
     "surface/solver_files.cpp": [

@@ -33,7 +33,8 @@ class FrameSource
 public:
     /// Reads the structure and finds the frames.
     /// @param[in] input       a structure file, or "-"
-    /// @param[in] trajectory  a file of openTrajectory(); empty: the frames are models of the structure
+    /// @param[in] trajectory  a file of openTrajectory(); empty: the frames are models of the
+    /// structure
     /// @param[in] frames      see parseFrames()
     /// @param[in] probe       that the surfaces are made with, see readAtoms() [Å]
     /// @param[in] progress    is kept by reference

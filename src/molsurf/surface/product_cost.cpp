@@ -81,9 +81,9 @@ Cost perBall(const SurfaceSize& size, double seconds, double bytes)
 } // namespace
 
 #ifdef OPENVDB_STATICLIB          // the names of libopenvdb.so take 28 MB
-const double processBytes = 24e6; // program, libraries, buffers
+const double processBytes = 30e6; // program, libraries, buffers
 #else
-const double processBytes = 52e6;
+const double processBytes = 58e6;
 #endif
 
 SurfaceSize sizeOf(const BallSet& atoms, const SurfaceOptions& options)

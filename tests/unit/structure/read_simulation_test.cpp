@@ -124,21 +124,23 @@ TEST(ReadPsf, NamesTheLineThatIsWrong)
 /// A topology of Amber: a glycine without hydrogens, an ion, and water with an extra point.
 std::string parm7(bool elements)
 {
-    std::string out = "%VERSION  VERSION_STAMP = V0001.000\n%FLAG TITLE\n%FORMAT(20a4)\ndefault_name\n"
-                      "%FLAG POINTERS\n%FORMAT(10I8)\n"
-                      "       8       0       0       0       0       0       0       0       0       0\n"
-                      "       0       3\n"
-                      "%FLAG ATOM_NAME\n%FORMAT(20a4)\nN   CA  C   O   CL- O   H1  EPW \n"
-                      "%FLAG CHARGE\n%COMMENT in units of the electron charge times 18.2223\n"
-                      "%FORMAT(5E16.8)\n -7.57501011E+00  0.00000000E+00  0.00000000E+00  0.00000000E+00"
-                      " -1.82223000E+01\n  0.00000000E+00  9.47559600E+00 -9.47559600E+00\n";
+    std::string out =
+        "%VERSION  VERSION_STAMP = V0001.000\n%FLAG TITLE\n%FORMAT(20a4)\ndefault_name\n"
+        "%FLAG POINTERS\n%FORMAT(10I8)\n"
+        "       8       0       0       0       0       0       0       0       0       0\n"
+        "       0       3\n"
+        "%FLAG ATOM_NAME\n%FORMAT(20a4)\nN   CA  C   O   CL- O   H1  EPW \n"
+        "%FLAG CHARGE\n%COMMENT in units of the electron charge times 18.2223\n"
+        "%FORMAT(5E16.8)\n -7.57501011E+00  0.00000000E+00  0.00000000E+00  0.00000000E+00"
+        " -1.82223000E+01\n  0.00000000E+00  9.47559600E+00 -9.47559600E+00\n";
     if (elements)
         out += "%FLAG ATOMIC_NUMBER\n%FORMAT(10I8)\n"
                "       7       6       6       8      17       8       1       0\n";
-    return out + "%FLAG MASS\n%FORMAT(5E16.8)\n  1.40100000E+01  1.20100000E+01  1.20100000E+01"
-                 "  1.60000000E+01  3.54500000E+01\n  1.60000000E+01  1.00800000E+00  0.00000000E+00\n"
-                 "%FLAG RESIDUE_LABEL\n%FORMAT(20a4)\nGLY Cl- WAT \n"
-                 "%FLAG RESIDUE_POINTER\n%FORMAT(10I8)\n       1       5       6\n";
+    return out +
+           "%FLAG MASS\n%FORMAT(5E16.8)\n  1.40100000E+01  1.20100000E+01  1.20100000E+01"
+           "  1.60000000E+01  3.54500000E+01\n  1.60000000E+01  1.00800000E+00  0.00000000E+00\n"
+           "%FLAG RESIDUE_LABEL\n%FORMAT(20a4)\nGLY Cl- WAT \n"
+           "%FLAG RESIDUE_POINTER\n%FORMAT(10I8)\n       1       5       6\n";
 }
 
 TEST(ReadParm7, ReadsAtomsWithoutPlaces)

@@ -196,7 +196,7 @@ std::size_t hashOf(const Residue& residue)
 void joinModels(Structure& structure)
 {
     std::vector<Model> joined;
-    std::unordered_map<int, std::size_t> places; // in joined, of a number
+    std::unordered_map<int, std::size_t> places;            // in joined, of a number
     std::vector<std::pair<std::size_t, std::size_t>> order; // place of the model, atom
     for (const Model& model : structure.models) {
         const auto [found, isNew] = places.try_emplace(model.number, joined.size());

@@ -70,7 +70,8 @@ std::unique_ptr<Trajectory> openTrr(const std::string& path);
 std::unique_ptr<Trajectory> openNetcdf(const std::string& path);
 
 /// Opens a trajectory by what the file begins with, not by its name.
-/// @throws Error(ErrorKind::Input) if the file cannot be opened, is of no known kind or is cut short
+/// @throws Error(ErrorKind::Input) if the file cannot be opened, is of no known kind or is cut
+/// short
 std::unique_ptr<Trajectory> openTrajectory(const std::string& path);
 
 } // namespace molsurf
