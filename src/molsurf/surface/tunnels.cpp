@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/tunnels.h"
 
+#include "molsurf/analysis/pockets/find_pore.h"
 #include "molsurf/analysis/pockets/find_tunnels.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/pipeline/surface_run.h"
@@ -58,8 +59,7 @@ BallSet tunnelBalls(const Report::Tunnels& tunnels)
         const auto place = std::int32_t(out.names->residues.size());
         out.names->residues.push_back({"T", "T", "TUN", int(tunnel.number), ' ', true});
         for (const Report::Pore::Station& s : tunnel.stations) {
-            out.balls.push_back({openvdb::Vec3d(s.place[0], s.place[1], s.place[2]), s.radius,
-                                 std::int32_t(out.balls.size() + 1)});
+            out.balls.push_back({placeOf(s), s.radius, std::int32_t(out.balls.size() + 1)});
             out.names->residueOf.push_back(place);
             out.names->atoms.push_back({"X", '\0', 0, 1.0f});
         }

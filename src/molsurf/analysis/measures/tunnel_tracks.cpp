@@ -2,6 +2,7 @@
 #include "molsurf/analysis/measures/tunnel_tracks.h"
 
 #include "molsurf/analysis/measures/lining.h"
+#include "molsurf/analysis/pockets/find_pore.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/core/superposition.h"
 
@@ -28,11 +29,6 @@ Vec3d carried(const Vec3d& x, const std::vector<Vec3d>& from, const std::vector<
     Vec3d shift(0.0);
     for (std::size_t i = 0; i < from.size(); ++i) shift += to[i] - from[i];
     return x + shift / double(from.size());
-}
-
-Vec3d vectorOf(const std::array<double, 3>& x)
-{
-    return {x[0], x[1], x[2]};
 }
 
 /// The name of a ball in its residue.
@@ -66,7 +62,7 @@ public:
     Mouth mouthOf(const Report::Tunnels::Tunnel& tunnel) const
     {
         const Report::Pore::Station& end = tunnel.stations.back();
-        Mouth out{{}, {}, vectorOf(end.place), end.radius};
+        Mouth out{{}, {}, placeOf(end), end.radius};
         for (const std::size_t ball : end.lining) {
             out.lining.push_back(names_[ball]);
             out.places.push_back(atoms_.balls[ball].center);
@@ -75,7 +71,7 @@ public:
     }
 
     /// Where the atoms of a mouth carry it; none: they are not there.
-    std::optional<Vec3d> placeOf(const Mouth& mouth) const
+    std::optional<Vec3d> carriedEnd(const Mouth& mouth) const
     {
         std::vector<Vec3d> from, to;
         for (std::size_t i = 0; i < mouth.lining.size(); ++i) {
@@ -106,10 +102,10 @@ void TunnelTracks::add(const BallSet& balls, int frame, Report::Tunnels& tunnels
     };
     std::vector<Pair> pairs;
     for (std::size_t k = 0; k < mouths_.size(); ++k) {
-        const auto place = atoms.placeOf(mouths_[k]);
+        const auto place = atoms.carriedEnd(mouths_[k]);
         for (std::size_t t = 0; place && t < tunnels.list.size(); ++t) {
             const Report::Pore::Station& end = tunnels.list[t].stations.back();
-            const double distance = (vectorOf(end.place) - *place).length();
+            const double distance = (placeOf(end) - *place).length();
             if (distance < end.radius + mouths_[k].radius) pairs.push_back({distance, k, t});
         }
     }

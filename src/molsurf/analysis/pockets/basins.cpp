@@ -3,6 +3,7 @@
 
 #include "molsurf/kernel/balls/ball_index.h"
 #include "molsurf/kernel/balls/nearest_ball.h"
+#include "molsurf/kernel/core/disjoint_sets.h"
 
 #include <algorithm>
 #include <limits>
@@ -18,29 +19,17 @@ namespace molsurf
 namespace
 {
 
-/// Parts that grow and join.
+/// Parts that join.
 class Parts
 {
 public:
-    explicit Parts(double share) : share_(float(share)) {}
-
-    std::int32_t add(float peak)
+    /// @param[in] peaks  of each part its largest clearance [Å]
+    Parts(double share, std::vector<float> peaks)
+        : share_(float(share)), peaks_(std::move(peaks)), sets_(peaks_.size())
     {
-        const auto part = std::int32_t(parents_.size());
-        parents_.push_back(part);
-        peaks_.push_back(peak);
-        return part;
     }
 
-    std::int32_t find(std::int32_t part)
-    {
-        while (parents_[std::size_t(part)] != part) {
-            auto& up = parents_[std::size_t(part)];
-            up = parents_[std::size_t(up)];
-            part = up;
-        }
-        return part;
-    }
+    std::int32_t find(std::int32_t part) { return std::int32_t(sets_.find(std::uint32_t(part))); }
 
     /// Two roots meet: they join, or a neck is between them.
     void meet(std::int32_t a, std::int32_t b, float clearance)
@@ -63,12 +52,9 @@ public:
 
     void join(std::int32_t a, std::int32_t b)
     {
-        a = find(a);
-        b = find(b);
-        const auto [first, last] = std::minmax(a, b);
-        parents_[std::size_t(last)] = first;
-        auto& peak = peaks_[std::size_t(first)];
-        peak = std::max(peak, peaks_[std::size_t(last)]);
+        const float peak = std::max(peaks_[std::size_t(find(a))], peaks_[std::size_t(find(b))]);
+        sets_.join(std::uint32_t(a), std::uint32_t(b));
+        peaks_[std::size_t(find(a))] = peak;
     }
 
     /// The necks between roots, without those within one.
@@ -84,22 +70,15 @@ public:
         return out;
     }
 
-    std::size_t size() const { return parents_.size(); }
+    std::size_t size() const { return peaks_.size(); }
     bool splits() const { return share_ > 0.0f; }
 
 private:
     float share_;
-    std::vector<std::int32_t> parents_;
     std::vector<float> peaks_; // of roots the largest
+    DisjointSets sets_;
     std::map<std::pair<std::int32_t, std::int32_t>, float> necks_;
 };
-
-openvdb::Vec3d pointAt(const VoidField& space, VoxelPlace place)
-{
-    const int v = int(place % leafSize);
-    return space.table.origin(place / leafSize).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
-           space.voxelSize;
-}
 
 /// The active voxel nearest to a place among the 8 about it, if there is one.
 std::optional<VoxelPlace> voxelAbout(const VoidField& space, const openvdb::Vec3d& x)
@@ -110,12 +89,11 @@ std::optional<VoxelPlace> voxelAbout(const VoidField& space, const openvdb::Vec3
     std::optional<VoxelPlace> best;
     for (int k = 0; k < 8; ++k) {
         const openvdb::Coord voxel = low.offsetBy(k >> 2, k >> 1 & 1, k & 1);
-        const std::int32_t leaf = space.table.find(voxel);
-        const int place = (voxel[0] & 7) << 6 | (voxel[1] & 7) << 3 | (voxel[2] & 7);
+        const std::optional<VoxelPlace> place = space.find(voxel);
         const double square = (voxel.asVec3d() - at).lengthSqr();
-        if (leaf < 0 || square >= least || !(space.room(std::size_t(leaf), place) > 0.0f)) continue;
+        if (!place || square >= least || !(space.room(*place) > 0.0f)) continue;
         least = square;
-        best = VoxelPlace(std::size_t(leaf) * leafSize + std::size_t(place));
+        best = place;
     }
     return best;
 }
@@ -129,11 +107,14 @@ public:
 
     std::int32_t ofExit(std::size_t exit) const { return std::int32_t(graph_.nodes.size() + exit); }
 
-    void addTo(Parts& parts) const
+    /// The clearance of each, 0 above the cut [Å].
+    std::vector<float> peaks() const
     {
+        std::vector<float> out;
         for (std::size_t n = 0; n < graph_.nodes.size(); ++n)
-            parts.add(cut_.isBelow[n] ? float(graph_.nodes[n].clearance) : 0.0f);
-        for (const CutGraph::Exit& exit : cut_.exits) parts.add(float(exit.end.clearance));
+            out.push_back(cut_.isBelow[n] ? float(graph_.nodes[n].clearance) : 0.0f);
+        for (const CutGraph::Exit& exit : cut_.exits) out.push_back(float(exit.end.clearance));
+        return out;
     }
 
     /// Joins them, the widest places where two meet first.
@@ -263,7 +244,7 @@ private:
             open.pop_back();
             forEachJoined(space_.table, from, [&](VoxelPlace to) {
                 std::int32_t& other = of_.leaf(to / leafSize)[to % leafSize];
-                if (other >= 0 || !(space_.room(to / leafSize, int(to % leafSize)) > 0.0f)) return;
+                if (other >= 0 || !(space_.room(to) > 0.0f)) return;
                 other = piece;
                 open.push_back(to);
             });
@@ -293,12 +274,13 @@ std::int32_t deepestIn(const openvdb::Vec3d& x, const std::vector<Ball>& rooms,
 
 /// Gives each active voxel the part of the room that it lies deepest in, of those in its piece. A
 /// piece without rooms is a part.
+/// @param[in] parts  the last ones are those of pieces
 void assign(const Pieces& pieces, const std::vector<Ball>& rooms, double probe,
             const Progress& progress, Parts& parts, Basins& out)
 {
     const VoidField& space = pieces.space();
     std::vector<std::vector<std::int32_t>> inPiece(std::size_t(pieces.count()));
-    std::vector<std::int32_t> pieceOf(rooms.size(), -1), alone(inPiece.size(), -1);
+    std::vector<std::int32_t> pieceOf(rooms.size(), -1);
     for (std::size_t k = 0; k < rooms.size(); ++k) {
         const auto place = voxelAbout(space, rooms[k].center);
         if (!place) continue;
@@ -308,14 +290,13 @@ void assign(const Pieces& pieces, const std::vector<Ball>& rooms, double probe,
             parts.join(rooms[std::size_t(own[0])].atom, rooms[k].atom);
         own.push_back(std::int32_t(k));
     }
-    for (std::size_t p = 0; p < inPiece.size(); ++p)
-        if (inPiece[p].empty()) alone[p] = parts.add(0.0f);
+    const std::int32_t ofPieces = std::int32_t(parts.size()) - pieces.count();
     std::vector<openvdb::Vec3f> places;
     std::vector<VoxelPlace> voxels;
     for (std::size_t n = 0; n < space.table.size(); ++n)
         space.table.active(n).forEach([&](int v) {
             voxels.push_back(VoxelPlace(n * leafSize + std::size_t(v)));
-            places.emplace_back(pointAt(space, voxels.back()));
+            places.emplace_back(space.pointOf(voxels.back()));
         });
     const std::vector<std::int32_t> nearest = rooms.empty()
                                                   ? std::vector<std::int32_t>(voxels.size(), -1)
@@ -325,8 +306,10 @@ void assign(const Pieces& pieces, const std::vector<Ball>& rooms, double probe,
     for (std::size_t i = 0; i < voxels.size(); ++i) {
         const auto piece = std::size_t(pieces.of(voxels[i]));
         std::int32_t& part = out.of.leaf(voxels[i] / leafSize)[voxels[i] % leafSize];
-        part = alone[piece];
-        if (part >= 0) continue;
+        if (inPiece[piece].empty()) {
+            part = ofPieces + std::int32_t(piece);
+            continue;
+        }
         std::int32_t k = nearest[i];
         if (k < 0 || pieceOf[std::size_t(k)] != std::int32_t(piece))
             k = deepestIn(openvdb::Vec3d(places[i]), rooms, inPiece[piece]);
@@ -399,12 +382,14 @@ RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const Void
     RoomBasins out{{}, voidGraph(balls, probe, {}, progress), {}, {}, {}, {}};
     out.cut = cutGraph(out.graph, space, below, progress);
     const CutParts known(out.graph, out.cut);
-    Parts parts(share);
-    known.addTo(parts);
+    const Pieces pieces(space);
+    std::vector<float> peaks = known.peaks();
+    peaks.resize(peaks.size() + std::size_t(pieces.count()), 0.0f); // of those without a room
+    Parts parts(share, std::move(peaks));
     known.join(Clearance(balls), below, parts);
     known.noteTouching(below, parts);
     const std::vector<Ball> rooms = known.rooms();
-    assign(Pieces(space), rooms, probe, progress, parts, out.basins);
+    assign(pieces, rooms, probe, progress, parts, out.basins);
     out.ofNodes = number(space, parts, out.basins);
     addNecks(out.ofNodes, parts, out.basins);
     addWidest(rooms, out.ofNodes, out);

@@ -19,9 +19,6 @@
 namespace molsurf
 {
 
-/// A voxel as a number: 512 times its leaf and its place there.
-using VoxelPlace = std::uint32_t;
-
 /// Voxels that edges of the tetrahedra of cells join: seven of them beyond it in each leaf's order,
 /// as many before it. A cell is six tetrahedra about its long diagonal (Kuhn's triangulation).
 constexpr int edgeWays[7][3] = {{0, 0, 1}, {0, 1, 0}, {0, 1, 1}, {1, 0, 0},

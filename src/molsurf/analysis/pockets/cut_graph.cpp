@@ -21,11 +21,9 @@ using openvdb::Vec3d;
 /// Whether a place is below the cut: by the nearest voxel if the cut is farther away than that.
 bool isPlaceBelow(const Vec3d& place, double room, const VoidField& space, const BelowCut& below)
 {
-    const openvdb::Coord voxel = openvdb::Coord::round(place / space.voxelSize);
-    const std::int32_t leaf = space.table.find(voxel);
-    if (leaf < 0) return false;
-    const float there = space.below.leaf(
-        std::size_t(leaf))[(voxel[0] & 7) << 6 | (voxel[1] & 7) << 3 | (voxel[2] & 7)];
+    const auto voxel = space.find(openvdb::Coord::round(place / space.voxelSize));
+    if (!voxel) return false;
+    const float there = space.below.leaf(*voxel / leafSize)[*voxel % leafSize];
     if (std::abs(there) > space.voxelSize) return there > 0.0f; // it changes by 1 Å per Å
     return below(place, room).value > 0.0;
 }

@@ -14,7 +14,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace molsurf
@@ -141,18 +140,15 @@ std::int32_t nodeAt(const VoidGraph& graph, const openvdb::Vec3d& x)
 /// Which basins the small probe reaches from outside, by the graph of the void.
 std::vector<char> openBasins(const RoomBasins& split, const std::vector<BasinMeasure>& measures)
 {
-    const VoidGraph& graph = split.graph;
-    DisjointSets sets(graph.nodes.size());
-    for (const VoidGraph::Edge& edge : graph.edges)
-        sets.join(std::uint32_t(edge.nodes[0]), std::uint32_t(edge.nodes[1]));
-    const auto isOutside = [&](std::int32_t node) {
-        return sets.find(std::uint32_t(node)) == sets.find(VoidGraph::outside);
-    };
+    const std::vector<char> leadsOut = leadingOut(split.graph);
     std::vector<char> out;
     for (std::size_t b = 0; b < measures.size(); ++b) {
-        const auto& [widest, mouths] = std::tie(split.widest[b], measures[b].mouths);
-        out.push_back(widest ? isOutside(widest->node)
-                             : !mouths.empty() && isOutside(nodeAt(graph, mouths[0].widestPlace)));
+        const auto& widest = split.widest[b];
+        const auto& mouths = measures[b].mouths;
+        const std::int32_t node = widest           ? widest->node
+                                  : mouths.empty() ? VoidGraph::none
+                                                   : nodeAt(split.graph, mouths[0].widestPlace);
+        out.push_back(node != VoidGraph::none && leadsOut[std::size_t(node)]);
     }
     return out;
 }
@@ -247,9 +243,7 @@ std::int32_t basinAt(const VoidField& space, const Basins& basins,
         space.table.active(n).forEach([&](int v) {
             const std::int32_t basin = basins.of.leaf(n)[v];
             if (!isFound[std::size_t(basin)]) return;
-            const openvdb::Vec3d x =
-                space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
-                space.voxelSize;
+            const Vec3d x = space.pointOf(VoxelPlace(n * leafSize + std::size_t(v)));
             for (std::size_t i = 0; i < at.size(); ++i) {
                 const double square = (at[i] - x).lengthSqr();
                 if (square >= least2[i]) continue;
@@ -320,10 +314,8 @@ openvdb::FloatGrid::Ptr roomGrid(const VoidField& space)
             const openvdb::Coord voxel = space.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7);
             for (int k = 0; k < 27; ++k) {
                 const openvdb::Coord at = voxel.offsetBy(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
-                const std::int32_t leaf = space.table.find(at);
-                if (leaf < 0 || to.isValueOn(at)) continue;
-                const int place = (at[0] & 7) << 6 | (at[1] & 7) << 3 | (at[2] & 7);
-                to.setValue(at, space.room(std::size_t(leaf), place));
+                const auto place = space.find(at);
+                if (place && !to.isValueOn(at)) to.setValue(at, space.room(*place));
             }
         });
     return grid;

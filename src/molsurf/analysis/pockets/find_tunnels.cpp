@@ -7,7 +7,6 @@
 #include "molsurf/analysis/pockets/void_graph.h"
 #include "molsurf/error.h"
 #include "molsurf/kernel/balls/depth.h"
-#include "molsurf/kernel/core/disjoint_sets.h"
 #include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/core/strings.h"
 
@@ -36,10 +35,7 @@ using Station = Report::Pore::Station;
 std::int32_t roomBeside(const VoidGraph& graph, const Rooms& rooms, const Vec3d& x, double most,
                         const DepthAt& depth)
 {
-    DisjointSets open(graph.nodes.size());
-    for (const VoidGraph::Edge& edge : graph.edges)
-        open.join(std::uint32_t(edge.nodes[0]), std::uint32_t(edge.nodes[1]));
-    const std::uint32_t outside = open.find(VoidGraph::outside);
+    const std::vector<char> leadsOut = leadingOut(graph);
     struct Candidate {
         bool leadsOut;
         double view;
@@ -50,7 +46,7 @@ std::int32_t roomBeside(const VoidGraph& graph, const Rooms& rooms, const Vec3d&
         const std::int32_t n = rooms.nodes[r];
         const VoidGraph::Node& node = graph.nodes[std::size_t(n)];
         const double radius = std::min(node.clearance, most);
-        all.push_back({open.find(std::uint32_t(n)) == outside,
+        all.push_back({leadsOut[std::size_t(n)] != 0,
                        radius * radius / ((node.place - x).lengthSqr() + most * most), n});
     }
     std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {

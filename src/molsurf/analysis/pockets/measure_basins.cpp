@@ -307,13 +307,6 @@ private:
     std::vector<std::int32_t> basins_;
 };
 
-openvdb::Vec3d pointOf(const VoidField& space, VoxelPlace place)
-{
-    const int v = int(place % leafSize);
-    return space.table.origin(place / leafSize).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
-           space.voxelSize;
-}
-
 /// Widest paths (Dijkstra's search with the narrowest clearance in the place of the length) from
 /// the widest voxels of basins to their mouths: where each is narrowest.
 class Passages
@@ -390,7 +383,7 @@ void findPlaces(const VoidField& space, const Basins& basins, std::vector<BasinM
         space.table.active(n).forEach([&](int v) {
             const auto b = std::size_t(basins.of.leaf(n)[v]);
             const float below = space.below.leaf(n)[v], clearance = space.clearance.leaf(n)[v];
-            const openvdb::Vec3d x = pointOf(space, VoxelPlace(n * leafSize + std::size_t(v)));
+            const openvdb::Vec3d x = space.pointOf(VoxelPlace(n * leafSize + std::size_t(v)));
             if (below > depths[b]) {
                 depths[b] = below;
                 out[b].deepest = x;
@@ -436,10 +429,10 @@ std::vector<BasinMeasure> measureBasins(const VoidField& space, const Basins& ba
         const VoxelPlace narrowest = passages.narrowest(m);
         BasinMeasure::Mouth mouth{mouths.area(m), passages.clearance(widest[m])};
         mouth.voxels = std::move(voxels[m]);
-        mouth.widestPlace = pointOf(space, widest[m]);
+        mouth.widestPlace = space.pointOf(widest[m]);
         if (narrowest != Passages::none) {
             mouth.radius = passages.clearance(narrowest);
-            mouth.narrowest = pointOf(space, narrowest);
+            mouth.narrowest = space.pointOf(narrowest);
         }
         out[std::size_t(mouths.basin(m))].mouths.push_back(mouth);
     }

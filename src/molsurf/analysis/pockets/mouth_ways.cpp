@@ -131,11 +131,7 @@ std::size_t mouthAt(const VoidField& space, const std::vector<BasinMeasure::Mout
     std::size_t best = mouths.size();
     for (std::size_t m = 0; m < mouths.size(); ++m)
         for (const VoxelPlace place : mouths[m].voxels) {
-            const int v = int(place % leafSize);
-            const Vec3d at =
-                space.table.origin(place / leafSize).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
-                space.voxelSize;
-            const double square = (at - x).lengthSqr();
+            const double square = (space.pointOf(place) - x).lengthSqr();
             if (square >= least) continue;
             least = square;
             best = m;

@@ -11,8 +11,10 @@
 #include "molsurf/progress.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace molsurf
@@ -24,6 +26,9 @@ using DepthAt = std::function<OuterDepth::Depth(const openvdb::Vec3d&, double)>;
 using BelowCut = DepthAt;
 
 using PocketOptions = Products::PocketRule;
+
+/// A voxel as a number: 512 times its leaf and its place there.
+using VoxelPlace = std::uint32_t;
 
 /// Two distances on voxels. Where one of the corners of a cell has room, all of them are known.
 struct VoidField {
@@ -38,6 +43,23 @@ struct VoidField {
     float room(std::size_t leaf, int voxel) const
     {
         return std::min(clearance.leaf(leaf)[voxel], below.leaf(leaf)[voxel]);
+    }
+    float room(VoxelPlace voxel) const { return room(voxel / leafSize, int(voxel % leafSize)); }
+
+    /// Where a voxel lies [Å].
+    openvdb::Vec3d pointOf(VoxelPlace voxel) const
+    {
+        const int v = int(voxel % leafSize);
+        return table.origin(voxel / leafSize).offsetBy(v >> 6, v >> 3 & 7, v & 7).asVec3d() *
+               voxelSize;
+    }
+
+    /// The voxel at a coordinate; none: no leaf has it.
+    std::optional<VoxelPlace> find(const openvdb::Coord& at) const
+    {
+        const std::int32_t leaf = table.find(at);
+        if (leaf < 0) return {};
+        return VoxelPlace(leaf * leafSize + ((at[0] & 7) << 6 | (at[1] & 7) << 3 | (at[2] & 7)));
     }
 };
 

@@ -5,6 +5,7 @@
 #include "molsurf/kernel/balls/ball_boundary.h"
 #include "molsurf/kernel/balls/ball_index.h"
 #include "molsurf/kernel/balls/placed_ball.h"
+#include "molsurf/kernel/core/disjoint_sets.h"
 #include "molsurf/kernel/core/orthonormal_basis.h"
 
 #include <algorithm>
@@ -771,6 +772,17 @@ std::vector<VoidPoint> VoidGraph::pointsFrom(const Edge& edge, std::int32_t node
 {
     std::vector<VoidPoint> out = pointsOf(edge, step);
     if (edge.nodes[0] != node) std::reverse(out.begin(), out.end());
+    return out;
+}
+
+std::vector<char> leadingOut(const VoidGraph& graph)
+{
+    DisjointSets sets(graph.nodes.size());
+    for (const VoidGraph::Edge& edge : graph.edges)
+        sets.join(std::uint32_t(edge.nodes[0]), std::uint32_t(edge.nodes[1]));
+    std::vector<char> out;
+    for (std::uint32_t n = 0; n < graph.nodes.size(); ++n)
+        out.push_back(sets.find(n) == sets.find(VoidGraph::outside));
     return out;
 }
 

@@ -82,6 +82,9 @@ struct VoidGraph {
 VoidGraph voidGraph(const std::vector<Ball>& balls, double floor,
                     const std::vector<openvdb::Vec3d>& starts, const Progress& progress);
 
+/// Of each node whether a ball of the floor gets out from there.
+std::vector<char> leadingOut(const VoidGraph& graph);
+
 /// The maxima of the clearance, and what lies between them.
 struct Rooms {
     std::vector<std::int32_t> up; ///< of each node the edge by which the way up goes on, or none
