@@ -3,13 +3,13 @@
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/byte_order.h"
 #include "molsurf/molecule/structure/load_text.h"
 #include "molsurf/molecule/structure/text_fields.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string_view>
 
@@ -121,30 +121,20 @@ bool isMrc(const std::string& bytes)
     return bytes.size() >= mrcHeader && bytes.compare(mrcName, 4, "MAP ") == 0;
 }
 
-/// A half float.
-float fromHalf(std::uint16_t bits)
-{
-    const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
-    const float size = exponent == 31 ? std::numeric_limits<float>::quiet_NaN()
-                       : exponent > 0 ? std::ldexp(1024.0f + float(mantissa), exponent - 25)
-                                      : std::ldexp(float(mantissa), -24);
-    return bits >> 15 ? -size : size;
-}
-
 /// The words of a map, of either byte order.
 class MrcWords
 {
 public:
-    explicit MrcWords(const std::string& bytes) : bytes_(bytes), isBig_(false)
+    explicit MrcWords(const std::string& bytes) : bytes_(bytes)
     {
         constexpr std::int32_t most = 0xffff; // of the mode
         const std::int32_t mode = integer(4);
-        isBig_ = mode < 0 || mode > most;
+        if (mode < 0 || mode > most) order_ = ByteOrder::Big;
     }
 
     /// A word of the header, counted from 1.
     std::int32_t integer(std::size_t word) const { return std::int32_t(bits(4 * (word - 1), 4)); }
-    double real(std::size_t word) const { return floatAt(4 * (word - 1)); }
+    double real(std::size_t word) const { return realAt(&bytes_[4 * (word - 1)], 4, order_); }
 
     /// A value of a mode behind the header.
     float value(std::size_t begin, std::size_t i, int mode) const
@@ -156,31 +146,24 @@ public:
             return float(std::int16_t(bits(begin + 2 * i, 2)));
         case 6:
             return float(std::uint16_t(bits(begin + 2 * i, 2)));
-        case 12:
-            return fromHalf(std::uint16_t(bits(begin + 2 * i, 2)));
+        case 12: {
+            openvdb::math::half half;
+            half.setBits(std::uint16_t(bits(begin + 2 * i, 2)));
+            return half;
+        }
         default:
-            return floatAt(begin + 4 * i);
+            return float(realAt(&bytes_[begin + 4 * i], 4, order_));
         }
     }
 
 private:
     std::uint32_t bits(std::size_t at, std::size_t width) const
     {
-        std::uint32_t out = 0;
-        for (std::size_t k = 0; k < width; ++k)
-            out |= std::uint32_t(std::uint8_t(bytes_[at + k])) << 8 * (isBig_ ? width - 1 - k : k);
-        return out;
-    }
-    float floatAt(std::size_t at) const
-    {
-        const std::uint32_t word = bits(at, 4);
-        float out = 0.0f;
-        std::memcpy(&out, &word, sizeof out);
-        return out;
+        return std::uint32_t(unsignedAt(&bytes_[at], width, order_));
     }
 
     const std::string& bytes_;
-    bool isBig_;
+    ByteOrder order_ = ByteOrder::Little;
 };
 
 /// Bytes of a value of a mode; 0: it is not read.

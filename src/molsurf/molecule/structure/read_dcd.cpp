@@ -2,6 +2,7 @@
 #include "molsurf/molecule/structure/trajectory.h"
 
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/byte_order.h"
 
 #include <cstring>
 
@@ -13,11 +14,6 @@ namespace
 
 constexpr std::size_t dcdHeaderSize = 84;         // "CORD" and 20 words
 constexpr std::uint32_t largestRecord = 1u << 30; // of a record [byte]
-
-std::uint32_t turned(std::uint32_t w)
-{
-    return w >> 24 | (w >> 8 & 0xff00) | (w << 8 & 0xff0000) | w << 24;
-}
 
 /// A .dcd file, read frame by frame. Of either byte order, with or without unit cells, fixed atoms
 /// and a fourth dimension (which is passed over); record markers of 4 or 8 bytes, as Fortran's
@@ -50,9 +46,7 @@ protected:
 private:
     std::uint32_t word(const char* bytes) const
     {
-        std::uint32_t value = 0;
-        std::memcpy(&value, bytes, sizeof value);
-        return swapped_ ? turned(value) : value;
+        return std::uint32_t(unsignedAt(bytes, 4, order_));
     }
 
     /// The marker of a record that comes next: its length.
@@ -60,9 +54,7 @@ private:
     {
         char bytes[8] = {};
         if (!file_.read(bytes, mark_)) fail("cut short");
-        if (mark_ == 4) return word(bytes);
-        const std::uint64_t first = word(bytes), second = word(bytes + 4);
-        return swapped_ ? first << 32 | second : second << 32 | first;
+        return unsignedAt(bytes, std::size_t(mark_), order_);
     }
 
     /// The content of the record that comes next.
@@ -85,7 +77,7 @@ private:
         const bool narrow = file_ && std::memcmp(first + 4, "CORD", 4) == 0;
         const bool wide = file_ && std::memcmp(first + 8, "CORD", 4) == 0;
         mark_ = wide && !narrow ? 8 : 4;
-        swapped_ = first[0] == 0; // 84 is a byte in front or behind
+        order_ = first[0] == 0 ? ByteOrder::Big : ByteOrder::Little; // 84 is in front or behind
         file_.clear();
         file_.seekg(0);
         if ((!narrow && !wide) || mark() != dcdHeaderSize)
@@ -140,15 +132,13 @@ private:
             fail("expected " + std::to_string(count) + " coordinates in a record, got " +
                  std::to_string(content.size() / 4));
         std::vector<float> out(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t bits = word(&content[4 * i]);
-            std::memcpy(&out[i], &bits, sizeof bits);
-        }
+        for (std::size_t i = 0; i < count; ++i) out[i] = float(realAt(&content[4 * i], 4, order_));
         return out;
     }
 
     std::streamsize mark_ = 4; ///< bytes of a marker
-    bool swapped_ = false, cell_ = false, fourth_ = false;
+    ByteOrder order_ = ByteOrder::Little;
+    bool cell_ = false, fourth_ = false;
     std::size_t frames_ = 0;
     std::vector<std::size_t> free_; ///< atoms that move; empty: all
     std::uint64_t begin_ = 0;

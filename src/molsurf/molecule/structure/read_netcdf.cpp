@@ -2,7 +2,7 @@
 #include "molsurf/molecule/structure/trajectory.h"
 
 #include "molsurf/kernel/core/strings.h"
-#include "molsurf/molecule/structure/big_endian.h"
+#include "molsurf/molecule/structure/byte_order.h"
 
 #include <algorithm>
 #include <cstring>
@@ -75,7 +75,7 @@ protected:
         std::vector<openvdb::Vec3f> out(atoms_);
         for (std::size_t i = 0; i < 3 * atoms_; ++i)
             out[i / 3][int(i % 3)] =
-                float(scale_ * bigEndianReal(&bytes[i * bytesOf(type_)], bytesOf(type_)));
+                float(scale_ * realAt(&bytes[i * bytesOf(type_)], bytesOf(type_), ByteOrder::Big));
         return out;
     }
 
@@ -86,7 +86,7 @@ private:
     {
         char bytes[8] = {};
         if (!file_.read(bytes, std::streamsize(size))) fail("cut short");
-        return bigEndian(bytes, size);
+        return unsignedAt(bytes, size, ByteOrder::Big);
     }
 
     /// A number of things, none of which takes less than a byte.
@@ -135,7 +135,7 @@ private:
             if (size == 0) fail("is damaged: an attribute of type " + std::to_string(type));
             if (scale && name == "scale_factor" && values.size() >= size &&
                 (type == floatType || type == doubleType))
-                *scale = bigEndianReal(values.data(), size);
+                *scale = realAt(values.data(), size, ByteOrder::Big);
         }
     }
 

@@ -2,7 +2,7 @@
 #include "molsurf/molecule/structure/trajectory.h"
 
 #include "molsurf/kernel/core/strings.h"
-#include "molsurf/molecule/structure/big_endian.h"
+#include "molsurf/molecule/structure/byte_order.h"
 
 #include <array>
 
@@ -46,7 +46,7 @@ protected:
         if (!file_.read(bytes.data(), std::streamsize(bytes.size()))) fail("cut short");
         std::vector<openvdb::Vec3f> out(atoms_);
         for (std::size_t i = 0; i < 3 * atoms_; ++i)
-            out[i / 3][int(i % 3)] = float(10.0 * bigEndianReal(&bytes[i * width], width));
+            out[i / 3][int(i % 3)] = float(10.0 * realAt(&bytes[i * width], width, ByteOrder::Big));
         return out;
     }
 
@@ -75,7 +75,7 @@ private:
     {
         char bytes[4] = {};
         file_.read(bytes, sizeof bytes);
-        return std::uint32_t(bigEndian(bytes, sizeof bytes));
+        return std::uint32_t(unsignedAt(bytes, sizeof bytes, ByteOrder::Big));
     }
 
     /// Reads the header of a frame, and lists it if it has coordinates.

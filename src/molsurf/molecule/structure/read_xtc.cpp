@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/molecule/structure/read_xtc.h"
 
+#include "molsurf/molecule/structure/byte_order.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -176,9 +178,9 @@ bool XtcFile::recognizes(const std::string& path)
 
 std::uint32_t XtcFile::word()
 {
-    unsigned char b[4] = {};
-    file_.read(reinterpret_cast<char*>(b), 4);
-    return std::uint32_t(b[0]) << 24 | std::uint32_t(b[1]) << 16 | std::uint32_t(b[2]) << 8 | b[3];
+    char bytes[4] = {};
+    file_.read(bytes, sizeof bytes);
+    return std::uint32_t(unsignedAt(bytes, sizeof bytes, ByteOrder::Big));
 }
 
 XtcFile::XtcFile(const std::string& path) : Trajectory(path)

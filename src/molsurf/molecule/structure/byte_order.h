@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Numbers whose most significant byte comes first, as XDR and NetCDF have them.
+/// Numbers in the bytes of files.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,19 +11,26 @@
 namespace molsurf
 {
 
+/// Which byte of a number comes first.
+enum class ByteOrder {
+    Little, ///< the least significant
+    Big     ///< the most significant, as in XDR and NetCDF
+};
+
 /// An unsigned number of up to 8 bytes.
-inline std::uint64_t bigEndian(const char* bytes, std::size_t width)
+inline std::uint64_t unsignedAt(const char* bytes, std::size_t width, ByteOrder order)
 {
     std::uint64_t value = 0;
-    for (std::size_t k = 0; k < width; ++k) value = value << 8 | std::uint8_t(bytes[k]);
+    for (std::size_t k = 0; k < width; ++k)
+        value = value << 8 | std::uint8_t(bytes[order == ByteOrder::Big ? k : width - 1 - k]);
     return value;
 }
 
 /// A number of IEEE 754.
 /// @param[in] width  4 or 8 bytes
-inline double bigEndianReal(const char* bytes, std::size_t width)
+inline double realAt(const char* bytes, std::size_t width, ByteOrder order)
 {
-    const std::uint64_t bits = bigEndian(bytes, width);
+    const std::uint64_t bits = unsignedAt(bytes, width, order);
     if (width == 8) {
         double value = 0.0;
         std::memcpy(&value, &bits, sizeof value);
