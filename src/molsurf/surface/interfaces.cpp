@@ -206,11 +206,9 @@ class Pairs
 public:
     Pairs(const BallSet& atoms, const SurfaceSpec& spec, bool ofBalls, Progress& progress)
         : bare_(withoutNames(atoms)), spec_(spec), ofBalls_(ofBalls), progress_(progress),
-          members_(membersOf(atoms)),
+          members_(membersOf(atoms)), gap_(Influence(atoms, spec).acrossGap()),
           facing_(facingBalls(bare_.balls, members_,
-                              std::max(fitReach, isClosedForm(spec)
-                                                     ? acrossAreas(spec)
-                                                     : Influence(atoms, spec).acrossGap()),
+                              std::max(fitReach, isClosedForm(spec) ? acrossAreas(spec) : gap_),
                               progress)),
           changed_(bare_.balls, members_, spec_), alone_(members_.balls.size())
     {
@@ -221,11 +219,10 @@ public:
     /// The others of which a ball is near enough to change areas of a member.
     std::vector<std::size_t> near(std::size_t member) const
     {
-        const double gap = Influence(bare_, spec_).acrossGap();
         std::vector<std::size_t> out;
         for (const auto& [other, facing] : facing_[member])
             if (std::any_of(facing.begin(), facing.end(),
-                            [&](const Facing& f) { return f.gap < gap; }))
+                            [&](const Facing& f) { return f.gap < gap_; }))
                 out.push_back(std::size_t(other));
         return out;
     }
@@ -307,6 +304,7 @@ private:
     bool ofBalls_;
     Progress& progress_;
     Members members_;
+    double gap_; // across which balls change each other's surface [Å]
     FacingBalls facing_;
     ChangedAreas changed_;
     std::vector<std::optional<Areas>> alone_;
