@@ -65,8 +65,8 @@ void writeRecolored(const CommandLine& call, const VdbFile& file, const StoredSu
     writeVdb(recolored(call, file, surface), metadata, out);
 }
 
-/// Makes a volume of a map.
-int convertMap(const CommandLine& call)
+/// Makes a volume of a map of so many points.
+int convertMap(const CommandLine& call, std::size_t points, Terminal& terminal)
 {
     for (const Output& output : call.outputs)
         if (!output.holds(anyGrids))
@@ -74,11 +74,8 @@ int convertMap(const CommandLine& call)
                         "-o " + output.path +
                             ": a map becomes .vdb or .nvdb [hint: --iso V -o FILE.vdb, of which "
                             "convert makes the others]");
-    Terminal terminal(call.progress);
-    terminal.update("read", 0.0);
     // measured: convert of an .mrc of 4AT1 of 1.77e7 points: 0.33 s and 167 MB, with --iso 2.5 s
     // and 204 MB
-    const std::size_t points = pointsOfMap(call.input);
     PlannedBrick cost;
     cost.voxels = points;
     cost.bytes = std::size_t(25e6 + (call.iso ? 10.5 : 8.5) * double(points));
@@ -137,7 +134,8 @@ int convert(const CommandLine& asked, Clock::time_point start)
     terminal.update("read", 0.0);
     failIfNoFile(asked.input);
     failIfStream(asked.input, "a .vdb file");
-    if (pointsOfMap(asked.input) > 0) return convertMap(asked);
+    if (const std::size_t points = pointsOfMap(asked.input); points > 0)
+        return convertMap(asked, points, terminal);
     checkStored(asked);
     PlannedBrick cost;
     const VdbFile file = readVdb(asked.input, [&](const VdbContent& content) {

@@ -42,9 +42,12 @@ namespace
 struct Passing {
     const char *option, *table; ///< with the errors, and the files, that are of it
     const char* text;           ///< "no pore"
+    void (*drop)(BallSet&);     ///< asks for it no more
 };
 constexpr std::array<Passing, 2> passings = {
-    {{"`pore`: ", "pore", "no pore"}, {"`tunnelsFrom`: ", "tunnels", "no tunnels"}}};
+    {{"`pore`: ", "pore", "no pore", [](BallSet& balls) { balls.pore.reset(); }},
+     {"`tunnelsFrom`: ", "tunnels", "no tunnels",
+      [](BallSet& balls) { balls.tunnelsFrom.reset(); }}}};
 
 /// Whether a file is the table of tunnels over all frames.
 bool ofTracks(const Output& output)
@@ -426,10 +429,7 @@ private:
         });
         if (error.kind() != ErrorKind::Input || passing == passings.end()) return false;
         const auto k = std::size_t(passing - passings.begin());
-        if (k == 0)
-            balls.pore.reset();
-        else
-            balls.tunnelsFrom.reset();
+        passing->drop(balls);
         if (closed_[k].empty()) whyClosed_[k] = text.substr(0, text.find(" [")); // without its hint
         closed_[k].push_back(std::to_string(source_.number(i)));
         if (closed_[k].size() == size()) throw error; // none has one

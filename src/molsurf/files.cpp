@@ -201,18 +201,30 @@ void drawSurfaceFiles(const std::vector<ShownSurface>& surfaces, const std::stri
     file.commit();
 }
 
-/// @param[in] isBare  as .nvdb
-void writeGrids(const MolecularSurface& surface, const std::string& path, const Scene& scene,
-                bool moved, bool isBare, bool replace)
+/// @param[in] path  for messages
+openvdb::GridCPtrVec placedGrids(const MolecularSurface& surface, const std::string& path,
+                                 const Scene& scene, bool moved)
 {
     const openvdb::GridPtrVec all = surface.grids();
     if (all.empty()) throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
     const openvdb::GridCPtrVec grids(all.begin(), all.end());
+    return scene.known() || moved ? placeInScene(grids, scene) : grids;
+}
+
+void writeGrids(const openvdb::GridCPtrVec& grids, const std::string& path, const Scene& scene,
+                bool replace)
+{
     openvdb::MetaMap metadata;
     describeScene(scene, metadata);
     OutputFile file(path, replace);
-    const openvdb::GridCPtrVec placed = scene.known() || moved ? placeInScene(grids, scene) : grids;
-    isBare ? writeNvdb(placed, file) : writeVdb(placed, metadata, file);
+    writeVdb(grids, metadata, file);
+    file.commit();
+}
+
+void writeBareGrids(const openvdb::GridCPtrVec& grids, const std::string& path, bool replace)
+{
+    OutputFile file(path, replace);
+    writeNvdb(grids, file);
     file.commit();
 }
 
@@ -307,7 +319,7 @@ void writeVdb(const MolecularSurface& surface, const std::string& path, bool rep
         throw Error(ErrorKind::Usage, "scene: expected blender, houdini or usd, perhaps with "
                                       "=SCALE, got " +
                                           inQuotes(scene));
-    writeGrids(surface, path, *place, false, false, replace);
+    writeGrids(placedGrids(surface, path, *place, false), path, *place, replace);
 }
 
 void writeReport(const Report& report, const std::string& path, bool replace)
@@ -357,7 +369,9 @@ void writeSurface(const std::vector<ShownSurface>& surfaces, const std::string& 
     if (const bool isBare = ending == ".nvdb"; isBare || ending == ".vdb") {
         FileLook look = lookOf(settings, path, isBare ? holds::heldByNvdb : holds::heldByVdb);
         if (look.center) look.scene.center = FileSurface(shown, look).center();
-        return writeGrids(*shown.surface, path, look.scene, look.center, isBare, replace);
+        const auto grids = placedGrids(*shown.surface, path, look.scene, look.center);
+        return isBare ? writeBareGrids(grids, path, replace)
+                      : writeGrids(grids, path, look.scene, replace);
     }
     if (ending == ".json") {
         lookOf(settings, path, holds::Numbers);

@@ -387,10 +387,8 @@ void completeAreas(CommandLine& call)
     options.contacts = tables.count("contacts") > 0;
     options.pockets |= tables.count("pockets") > 0;
     if (tables.count("pore") > 0 && call.atoms.pore.empty()) call.atoms.pore = "auto";
-    options.ballAreas = std::any_of(tables.begin(), tables.end(), [](const std::string& table) {
-        return table != "contacts" && table != "pockets" && table != "pore" && table != "tunnels" &&
-               table != "tunnel_frames";
-    });
+    for (const char* ofBalls : {"atoms", "residues", "interfaces", "forces"})
+        options.ballAreas |= tables.count(ofBalls) > 0;
 }
 
 void completeGroups(CommandLine& call)
