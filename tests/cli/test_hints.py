@@ -230,8 +230,8 @@ CASES = {
         ("--force", f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv",
          f"vdb_molsurf 1d3z.pdb.gz --frames 1 {FAST} -o a.ply -o junk.csv --force")],
     "scale/bricks/plan_bricks.cpp": [
-        (f"--memory {62 if LIBRARY else 33}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {21 + LIBRARY}M -o a.ply",
-         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {62 if LIBRARY else 33}M -o a.ply"),
+        (f"--memory {66 if LIBRARY else 35}M, or a larger --voxel", f"vdb_molsurf 1crn.pdb --voxel 2 --memory {21 + LIBRARY}M -o a.ply",
+         f"vdb_molsurf 1crn.pdb --voxel 2 --memory {66 if LIBRARY else 35}M -o a.ply"),
         ("or a larger --voxel", f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 0.1 -o a.ply",
          f"vdb_molsurf 1crn.pdb --memory {35 + LIBRARY}M --voxel 2 -o a.ply")],
     "scale/bricks/plan_bricks.h": [

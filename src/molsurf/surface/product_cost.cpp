@@ -39,7 +39,7 @@ constexpr double secondsOfTunnels = 1.2e-4, bytesOfTunnels = 4.3e3; // a ball
 
 // measured: build -o NAME.atoms.csv, .contacts.csv, --fields depth of 1A8O, 4AT1, 1AOI, 2BUK, 4V5A
 constexpr double secondsPerArea = 3e-6, bytesPerArea = 300.0;
-constexpr double secondsPerContact = 3.2e-5, bytesPerContact = 3.8e3;
+constexpr double secondsPerContact = 3.2e-5, bytesPerContact = 3.0e3;
 constexpr double secondsPerDepth = 2e-5, bytesPerDepth = 900.0;
 // measured: build --interfaces of 4AT1, 10 copies of 1F2N, 12 of 2BUK, and 400 chains of one bead
 constexpr double secondsPerFit = 8e-5, bytesPerFit = 2e3; // a ball
@@ -81,9 +81,9 @@ Cost perBall(const SurfaceSize& size, double seconds, double bytes)
 } // namespace
 
 #ifdef OPENVDB_STATICLIB          // the names of libopenvdb.so take 28 MB
-const double processBytes = 30e6; // program, libraries, buffers
+const double processBytes = 32e6; // program, libraries, buffers
 #else
-const double processBytes = 58e6;
+const double processBytes = 60e6;
 #endif
 
 SurfaceSize sizeOf(const BallSet& atoms, const SurfaceOptions& options)
