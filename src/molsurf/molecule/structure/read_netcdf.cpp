@@ -48,7 +48,9 @@ public:
         readDimensions();
         attributes(nullptr);
         readVariables();
-        if (!found_) fail("expected a variable \"coordinates\" by atom and axis, as Amber writes");
+        if (!found_)
+            fail("expected a variable \"coordinates\" by atom and axis, as Amber writes "
+                 "[hint: cpptraj writes FILE.dcd]");
         if (!isRecord_) {
             frames_ = 1;
             if (begin_ + frameBytes() > size_) fail("cut short");

@@ -98,7 +98,7 @@ private:
             if (width == 0 && atoms > 0) width = sizes[part] / (3 * atoms);
         if (width != 4 && width != 8)
             fail("expected a frame of TRR with numbers of 4 or 8 bytes, got " +
-                 std::to_string(width));
+                 std::to_string(width) + " [hint: gmx trjconv writes FILE.xtc]");
         if (sizes[Positions] != 0 && sizes[Positions] != 3 * atoms * width)
             fail(formatted("expected coordinates of %zu atoms, got %llu bytes", atoms,
                            static_cast<unsigned long long>(sizes[Positions])));
