@@ -245,7 +245,7 @@ MOLSURF_MEMBERS(EvolutionReport, v.steps, v.converged, v.energy, v.area, v.volum
 MOLSURF_MEMBERS(Report::Group, v.name, v.atoms, v.area, v.volume, v.color, v.aloneArea)
 MOLSURF_MEMBERS(Report::Interface, v.first, v.second, v.area, v.count, v.fit, v.buried)
 MOLSURF_MEMBERS(Report::Pockets::Pocket, v.volume, v.area, v.depth, v.radius, v.centre, v.open,
-                v.mouths, v.neighbours, v.lining)
+                v.mouths, v.rank, v.neighbours, v.lining)
 MOLSURF_MEMBERS(Report::Pockets, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list)
 MOLSURF_MEMBERS(Report::Pore::Station, v.place, v.normal, v.distance, v.radius, v.isBottleneck,
                 v.lining)

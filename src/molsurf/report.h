@@ -288,24 +288,25 @@ struct Report {
             std::array<double, 3> centre = {}; ///< of its volume [Å]
             bool open = false;                 ///< whether a way leads out, perhaps by neighbours
             std::vector<Mouth> mouths{};       ///< the largest first
-            std::vector<std::size_t>
-                neighbours{};             ///< pockets beyond necks, by their places in the list
-            std::vector<Lining> lining{}; ///< in ascending order of the balls
+            std::size_t rank = 0; ///< among all pockets that were found, the largest 1; without
+                                  ///< SelectOptions::pocketAt its place in the list
+            std::vector<std::size_t> neighbours{}; ///< ranks of the pockets beyond necks, ascending
+            std::vector<Lining> lining{};          ///< in ascending order of the balls
         };
 
         double probeIn = 0.0, probeOut = 0.0, cut = 0.0, neck = 0.0; ///< as PocketRule has them
         double voxel = 0.0;       ///< that they are found on [Å]
         std::vector<Pocket> list; ///< the largest first
 
-        /// A row for every pocket that was found, the largest first: pocket (its number from 1),
-        /// volume, area, depth_A, radius_A (of the largest ball in it), x_A, y_A, z_A (its middle),
-        /// open (1: a way leads out), mouths, mouth_area (of all), mouth_radius_A (of the largest
-        /// ball that gets out), mouth_x_A, mouth_y_A, mouth_z_A (where it just passes), neighbours
-        /// (numbers of pockets beyond necks), hydrophobicity (mean over the wall, of Kyte and
-        /// Doolittle), charge (of side chains, +1 of Lys and Arg, -1 of Asp and Glu), atoms (how
-        /// many line it), residues and atom_ids (which), and what was asked for: probe_in_A,
-        /// probe_out_A, cut_A, neck and voxel_A. Without names of the atoms what needs these is
-        /// empty.
+        /// A row for every pocket of the list: pocket (its number from 1), volume, area, depth_A,
+        /// radius_A (of the largest ball in it), x_A, y_A, z_A (its middle), open (1: a way leads
+        /// out), mouths, mouth_area (of all), mouth_radius_A (of the largest ball that gets out),
+        /// mouth_x_A, mouth_y_A, mouth_z_A (where it just passes), rank (among all that were found,
+        /// the largest 1), neighbours (ranks of pockets beyond necks), hydrophobicity (mean over
+        /// the wall, of Kyte and Doolittle), charge (of side chains, +1 of Lys and Arg, -1 of Asp
+        /// and Glu), atoms (how many line it), residues and atom_ids (which), and what was asked
+        /// for: probe_in_A, probe_out_A, cut_A, neck and voxel_A. Without names of the atoms what
+        /// needs these is empty.
         /// @param[in] atoms  that they are of
         Table table(const BallSet& atoms) const;
     };

@@ -137,6 +137,33 @@ class Pockets(ToolTest):
         self.assertNotIn("pocket_room", self.check(0, "info", "c.vdb").stdout.decode())
         self.assertEqual(len(list(self.folder.glob("c.pocket*"))), 6 * len(rows))
 
+    def test_depths_do_not_depend_on_voxels(self):
+        """Those of the same pockets; the deepest voxels lie up to 0.25 A higher."""
+        words = [DIMER, "--assembly", "1", "--pocket-cut", "1.5"]
+        depths = []
+        for voxel in ("0.4", "0.55"):
+            self.check(0, *words, "--voxel", voxel, "-o", "a.pockets.csv", "--force")
+            depths.append([float(row["depth_A"]) for row in self.table("a.pockets.csv")[:2]])
+        for a, b in zip(*depths):
+            self.assertAlmostEqual(a, b, delta=0.01)
+
+    def test_a_site_keeps_its_rank_and_neighbours(self):
+        words = [DATA / "bpti.pdb.gz", "--pocket-cut", "0.5"]
+        self.check(0, *words, "-o", "all.pockets.csv")
+        rows = self.table("all.pockets.csv")
+        self.assertTrue(all(row["rank"] == row["pocket"] for row in rows))
+        row = next(row for row in rows[1:] if row["neighbours"])
+        for other in row["neighbours"].split():
+            self.assertIn(row["rank"], rows[int(other) - 1]["neighbours"].split())
+        atom = row["atom_ids"].split()[0]
+        self.check(0, *words, "--pocket-at", f"index {atom}", "-o", "one.pockets.csv", "-o", "one.json")
+        one = self.table("one.pockets.csv")
+        self.assertEqual(len(one), 1)
+        same = rows[int(one[0]["rank"]) - 1]
+        self.assertEqual({**same, "pocket": "1"}, one[0])
+        listed = json.loads((self.folder / "one.json").read_bytes())["pockets"]["list"][0]
+        self.assertEqual([listed["rank"], listed["neighbors"]], [int(same["rank"]), [int(n) for n in same["neighbours"].split()]])
+
     def test_the_mesh_of_a_site_and_of_none(self):
         self.check(0, DATA / "1ubq.pdb", "--pocket-at", "resid 60", "--pocket-cut", "0", "-o", "site.pockets.ply")
         self.assertEqual([n for n in self.names() if "pocket" in n], ["site.pocket1.ply"])

@@ -53,12 +53,13 @@ public:
             lining.hydrophobicity, lining.charge};
         for (std::size_t k = 0; k < row.size(); ++k) numbers_[k].push_back(resolvedDigits(row[k]));
         number_.push_back(std::int64_t(number_.size()) + 1);
+        rank_.push_back(std::int64_t(pocket.rank));
         open_.push_back(pocket.open);
         mouths_.push_back(std::int64_t(pocket.mouths.size()));
         atoms_.push_back(std::int64_t(pocket.lining.size()));
         std::string near;
         for (const std::size_t other : pocket.neighbours)
-            near += (near.empty() ? "" : " ") + std::to_string(other + 1);
+            near += (near.empty() ? "" : " ") + std::to_string(other);
         neighbours_.push_back(near);
         residues_.push_back(lining.residues);
         ids_.push_back(lining.atoms);
@@ -80,6 +81,7 @@ public:
         numbers("mouth_x_A", 9);
         numbers("mouth_y_A", 10);
         numbers("mouth_z_A", 11);
+        table.columns.push_back({"rank", std::move(rank_)});
         table.columns.push_back({"neighbours", std::move(neighbours_)});
         numbers("hydrophobicity", 12);
         numbers("charge", 13);
@@ -89,7 +91,7 @@ public:
     }
 
 private:
-    std::vector<std::int64_t> number_, open_, mouths_, atoms_;
+    std::vector<std::int64_t> number_, rank_, open_, mouths_, atoms_;
     std::array<std::vector<double>, 14> numbers_;
     std::vector<std::string> neighbours_, residues_, ids_;
 };

@@ -4,6 +4,7 @@
 #include "molsurf/analysis/pockets/clearance.h"
 #include "molsurf/analysis/pockets/measure_basins.h"
 #include "molsurf/analysis/pockets/mouth_ways.h"
+#include "molsurf/analysis/pockets/pocket_extremes.h"
 #include "molsurf/analysis/pockets/swept_cavities.h"
 #include "molsurf/kernel/balls/nearest_ball.h"
 #include "molsurf/kernel/core/disjoint_sets.h"
@@ -24,8 +25,6 @@ using openvdb::Vec3f;
 
 namespace
 {
-
-constexpr double pocketDepth = 10.0; // a guess at the depth of a pocket and the probe [Å]
 
 /// The balls of walls with their parts of them, by basin.
 std::vector<std::vector<PocketReport::Lining>> liningsOf(const std::vector<Ball>& balls,
@@ -49,52 +48,12 @@ std::vector<std::vector<PocketReport::Lining>> liningsOf(const std::vector<Ball>
     return out;
 }
 
-/// Some directions, evenly on a sphere.
-std::vector<openvdb::Vec3d> directions()
-{
-    constexpr int count = 60;
-    constexpr double golden = 2.399963229728653; // angle [rad]
-    std::vector<openvdb::Vec3d> out;
-    for (int k = 0; k < count; ++k) {
-        const double z = 1.0 - (2.0 * k + 1.0) / count, across = std::sqrt(1.0 - z * z);
-        out.emplace_back(across * std::cos(golden * k), across * std::sin(golden * k), z);
-    }
-    return out;
-}
-
-/// The radius of the largest ball in a pocket without a node: from its widest voxel it moves to
-/// where it has more room, by longer steps as long as there is more and by shorter ones where there
-/// is not.
-/// @param[in] isWithin  whether a point is of the pocket
-double largestBall(const openvdb::Vec3d& widest, double voxelSize, const Clearance& clearance,
-                   const std::function<bool(const openvdb::Vec3d&)>& isWithin)
-{
-    constexpr double exact = 1e-3; // the last step [Å]
-    static const std::vector<openvdb::Vec3d> ways = directions();
-    openvdb::Vec3d at = widest;
-    double most = clearance.at(at);
-    for (double step = 0.5 * voxelSize; step > exact;) {
-        openvdb::Vec3d best = at;
-        for (const openvdb::Vec3d& way : ways) {
-            const openvdb::Vec3d x = at + way * step;
-            const double there = clearance.at(x);
-            if (there <= most || !isWithin(x)) continue;
-            most = there;
-            best = x;
-        }
-        step *= best == at ? 0.5 : 1.5;
-        at = best;
-    }
-    return most;
-}
-
 /// The report of a basin by its own measures.
-PocketReport pocketOf(const BasinMeasure& basin, const OuterDepth& outer)
+PocketReport pocketOf(const BasinMeasure& basin)
 {
     PocketReport out;
     out.volume = basin.volume;
     out.area = basin.area;
-    out.depth = outer.at(basin.deepest, false, pocketDepth).value;
     for (int k = 0; k < 3; ++k) out.centre[std::size_t(k)] = basin.moment[k] / basin.volume;
     return out;
 }
@@ -264,19 +223,23 @@ std::int32_t basinAt(const VoidField& space, const Basins& basins,
     return best;
 }
 
-/// @param[in] numbers  of each basin its pocket, from 1, or 0
-void addNeighbours(const Basins& basins, const std::vector<std::int32_t>& numbers,
-                   std::vector<PocketReport>& pockets)
+/// Gives pockets, the largest first, their ranks, and those of the pockets beyond their necks.
+void rank(const Basins& basins, std::vector<FoundPocket>& found)
 {
-    for (const Neck& neck : basins.necks) {
-        const std::int32_t a = numbers[std::size_t(neck.basins[0])],
-                           b = numbers[std::size_t(neck.basins[1])];
-        if (a == 0 || b == 0) continue;
-        pockets[std::size_t(a - 1)].neighbours.push_back(std::size_t(b - 1));
-        pockets[std::size_t(b - 1)].neighbours.push_back(std::size_t(a - 1));
+    std::vector<PocketReport*> ofBasin(basins.count(), nullptr);
+    for (std::size_t p = 0; p < found.size(); ++p) {
+        found[p].first.rank = p + 1;
+        ofBasin[found[p].second] = &found[p].first;
     }
-    for (PocketReport& pocket : pockets)
-        std::sort(pocket.neighbours.begin(), pocket.neighbours.end());
+    for (const Neck& neck : basins.necks) {
+        PocketReport* const a = ofBasin[std::size_t(neck.basins[0])];
+        PocketReport* const b = ofBasin[std::size_t(neck.basins[1])];
+        if (!a || !b) continue;
+        a->neighbours.push_back(b->rank);
+        b->neighbours.push_back(a->rank);
+    }
+    for (FoundPocket& one : found)
+        std::sort(one.first.neighbours.begin(), one.first.neighbours.end());
 }
 
 /// Makes a grid of the voxels of pockets.
@@ -327,7 +290,7 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
                     const std::vector<openvdb::Vec3d>& at, const Progress& progress)
 {
     const VoidField space = voidField(balls, options, voxelSize, progress);
-    const double nearCut = options.probeOut + options.cut + 1.0; // a guess, as pocketDepth [Å]
+    const double nearCut = options.probeOut + options.cut + 1.0; // a guess [Å]
     const BelowCut below = [&](const openvdb::Vec3d& x, double room) {
         OuterDepth::Depth depth = space.outer->at(x, room >= options.probeOut, nearCut);
         depth.value -= options.cut;
@@ -344,7 +307,7 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
         liningsOf(balls, measures, 2.0 * options.probeIn + voxelSize, progress);
     std::vector<PocketReport> pockets;
     for (std::size_t b = 0; b < basins.count(); ++b) {
-        pockets.push_back(pocketOf(measures[b], *space.outer));
+        pockets.push_back(pocketOf(measures[b]));
         pockets[b].open = isOpen[b];
         pockets[b].lining = std::move(linings[b]);
     }
@@ -354,6 +317,7 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
         return below(x, clearance.at(x)).value >= 0.0;
     };
     const std::vector<std::vector<MouthWay>> ways = mouthWays(space, split, measures);
+    const DeepestPlaces deepest(space, options.probeIn, clearance);
     std::vector<FoundPocket> found;
     for (std::size_t b = 0; b < basins.count(); ++b) {
         PocketReport& pocket = pockets[b];
@@ -361,11 +325,13 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
         if (pocket.volume < leastPocket) continue;
         pocket.radius = widest ? widest->ball.clearance
                                : largestBall(measures[b].widest, voxelSize, clearance, isWithin);
+        pocket.depth = deepest.depthNear(measures[b].deepest);
         pocket.mouths = mouthsOf(measures[b], ways[b], pocket.radius);
         found.emplace_back(std::move(pocket), b);
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& a, const auto& b) { return a.first.volume > b.first.volume; });
+    rank(basins, found);
     if (!at.empty()) {
         const std::int32_t kept = basinAt(space, basins, found, at);
         found.erase(
@@ -379,7 +345,6 @@ Pockets findPockets(const std::vector<Ball>& balls, const PocketOptions& options
         out.list.push_back(std::move(pocket));
         numbers[basin] = std::int32_t(out.list.size());
     }
-    addNeighbours(basins, numbers, out.list);
     out.ids =
         voxelGrid<openvdb::Int32Grid>("pocket_id", space, basins, numbers,
                                       [](std::size_t, int, std::int32_t number) { return number; });

@@ -181,9 +181,11 @@ VoidField voidField(const std::vector<Ball>& balls, const PocketOptions& options
     const openvdb::CoordBBox box = outer->hasVoids()
                                        ? leavesAbout(balls, options.probeIn + high, voxelSize)
                                        : openvdb::CoordBBox::inf();
-    SparseField band =
-        distanceToUnion(unionOf(balls, options.probeIn, progress), voxelSize, width, progress, box)
-            .phi;
+    BallUnion grown = unionOf(balls, options.probeIn, progress);
+    std::vector<Ball> corners;
+    for (const Corner& corner : grown.boundary.corners)
+        corners.push_back({corner.position, 0.0, 0});
+    SparseField band = distanceToUnion(std::move(grown), voxelSize, width, progress, box).phi;
     const DepthOfLeaves depths(*outer, options, voxelSize);
     LeafField below(band.table.size());
     std::vector<DepthOfLeaves::Cubes> cubes(band.table.size());
@@ -197,7 +199,7 @@ VoidField voidField(const std::vector<Ball>& balls, const PocketOptions& options
     std::vector<Coord> origins;
     for (std::size_t n = 0; n < cubes.size(); ++n)
         if (cubes[n].known) origins.push_back(band.table.origin(n));
-    VoidField out{LeafTable(std::move(origins)), {}, {}, voxelSize, outer};
+    VoidField out{LeafTable(std::move(origins)), {}, {}, voxelSize, std::move(corners), outer};
     out.clearance = LeafField(out.table.size());
     out.below = LeafField(out.table.size());
     parallelFor(out.table.size(), progress, [&](std::size_t n) {

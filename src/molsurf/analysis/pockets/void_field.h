@@ -37,6 +37,7 @@ struct VoidField {
     LeafField below; ///< how far below the cut, negative above it [Å]; where it is more than the
                      ///< clearance, a little too much
     double voxelSize = 0.0;
+    std::vector<Ball> corners; ///< of radius 0: where small probes touch three balls or more
     std::shared_ptr<const OuterDepth> outer; ///< the depth itself
 
     /// Room [Å]: above 0 where a probe has it.

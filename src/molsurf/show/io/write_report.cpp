@@ -142,24 +142,16 @@ Json interfacesJson(const std::vector<Report::Interface>& interfaces)
     return out;
 }
 
-/// Places in a list as numbers from 1.
-Json numbersJson(const std::vector<std::size_t>& places)
-{
-    Json out = Json::array();
-    for (const std::size_t place : places) out.push_back(place + 1);
-    return out;
-}
-
 Json pocketJson(const Report::Pockets::Pocket& pocket)
 {
     Json mouths = Json::array();
     for (const Report::Pockets::Pocket::Mouth& mouth : pocket.mouths)
         mouths.push_back(
             Json{{"area", mouth.area}, {"radius", mouth.radius}, {"center", mouth.place}});
-    return {{"volume", pocket.volume},     {"area", pocket.area},
-            {"depth", pocket.depth},       {"radius", pocket.radius},
-            {"center", pocket.centre},     {"open", pocket.open},
-            {"mouths", std::move(mouths)}, {"neighbors", numbersJson(pocket.neighbours)}};
+    return {
+        {"volume", pocket.volume},     {"area", pocket.area},     {"depth", pocket.depth},
+        {"radius", pocket.radius},     {"center", pocket.centre}, {"open", pocket.open},
+        {"mouths", std::move(mouths)}, {"rank", pocket.rank},     {"neighbors", pocket.neighbours}};
 }
 
 Json pocketsJson(const Report::Pockets& pockets)
