@@ -90,7 +90,7 @@ void writeAtomsTo(const std::string& path, const BallSet& atoms, const BrickPlan
 
 void checkOutputs(const CommandLine& call)
 {
-    if (call.scene.known() || call.center)
+    if (call.scene.known() || call.scene.form.changes() || call.center)
         throw Error(ErrorKind::Usage, "--for and --center need the whole molecule at once [hint: "
                                       "without --memory]");
     for (const Output& output : call.outputs)

@@ -105,8 +105,7 @@ openvdb::GridCPtrVec gridsOf(const CommandLine& call, const MolecularSurface& re
 {
     const openvdb::GridPtrVec all = result.grids();
     const openvdb::GridCPtrVec grids(all.begin(), all.end());
-    const Scene& scene = call.scene;
-    return scene.known() || call.center ? placeInScene(grids, scene) : grids;
+    return placeInScene(grids, call.scene, call.center);
 }
 
 std::string stemOf(const std::string& path)

@@ -22,7 +22,8 @@ case "$verb:$words[CURRENT-1]" in
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
     "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
     "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
-    "build:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd'; return ;;
+    "build:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd' 'unreal' 'arnold'; return ;;
+    "build:--labels") compadd -- 'int' 'float'; return ;;
     "build:--view") compadd -- 'auto'; return ;;
     "build:--background") compadd -- 'transparent'; return ;;
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -43,7 +44,8 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
     "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
     "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
-    "batch:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd'; return ;;
+    "batch:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd' 'unreal' 'arnold'; return ;;
+    "batch:--labels") compadd -- 'int' 'float'; return ;;
     "batch:--view") compadd -- 'auto'; return ;;
     "batch:--background") compadd -- 'transparent'; return ;;
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -160,8 +162,11 @@ if [[ $words[CURRENT] == -* ]]; then
       '--pore:the pore, for the report, .pore.csv, profiles .pore.svg,'
       '--tunnels-from:the ways out of a place, for the report, pictures and pages,'
       '--tunnel-probe:tunnels are at least as wide as a ball of this radius [Å],'
-      '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
+      '--for:blender, blender4 (up to 4.5), houdini, usd, unreal or arnold\: a .vdb'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
+      '--labels:type of atom_id, chain_id, group_id and pocket_id in a .vdb\:'
+      '--one-box:all grids of a .vdb have one box of active voxels'
+      '--mips:N coarser levels of density and Cd in a .vdb, each with'
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--min-wall:thicken what is thinner than W mm; with --print-scale'
@@ -269,8 +274,11 @@ if [[ $words[CURRENT] == -* ]]; then
       '--pore:the pore, for the report, .pore.csv, profiles .pore.svg,'
       '--tunnels-from:the ways out of a place, for the report, pictures and pages,'
       '--tunnel-probe:tunnels are at least as wide as a ball of this radius [Å],'
-      '--for:blender, blender4 (up to 4.5), houdini or usd\: a .vdb with'
+      '--for:blender, blender4 (up to 4.5), houdini, usd, unreal or arnold\: a .vdb'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
+      '--labels:type of atom_id, chain_id, group_id and pocket_id in a .vdb\:'
+      '--one-box:all grids of a .vdb have one box of active voxels'
+      '--mips:N coarser levels of density and Cd in a .vdb, each with'
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--min-wall:thicken what is thinner than W mm; with --print-scale'

@@ -208,7 +208,7 @@ openvdb::GridCPtrVec placedGrids(const MolecularSurface& surface, const std::str
     const openvdb::GridPtrVec all = surface.grids();
     if (all.empty()) throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
     const openvdb::GridCPtrVec grids(all.begin(), all.end());
-    return scene.known() || moved ? placeInScene(grids, scene) : grids;
+    return placeInScene(grids, scene, moved);
 }
 
 void writeGrids(const openvdb::GridCPtrVec& grids, const std::string& path, const Scene& scene,

@@ -116,6 +116,54 @@ class Grids(ToolTest):
             self.assertEqual(self.origin(grid), (0, 0, 0))
         self.assertEqual(grids["surface"].background, self.grids("plain.vdb")["surface"].background)
 
+    def test_unreal_takes_fogs_in_one_box(self):
+        """Of 0 to 1, with 16 bits and one transform; a unit is a centimetre."""
+        self.check(0, CRAMBIN, *FAST, "--for", "unreal=2", "-o", "a.vdb")
+        grids = self.grids("a.vdb")
+        self.assertEqual(set(grids), {"density", "Cd"})
+        boxes = {grid.evalActiveVoxelBoundingBox() for grid in grids.values()}
+        self.assertEqual(len(boxes), 1)
+        for grid in grids.values():
+            self.assertEqual(grid.transform.voxelSize(), (2, 2, 2))
+            self.assertTrue(grid.saveFloatAsHalf)
+            self.assertEqual(self.origin(grid), (0, 0, 0))
+        values = [item.value for item in grids["density"].citerOnValues()]
+        self.assertEqual((min(values), max(values)), (0, 1))
+        # The corners that make the box one are empty fog.
+        self.check(0, CRAMBIN, *FAST, "--for", "houdini", "-o", "b.vdb")
+        self.assertEqual(grids["density"].activeVoxelCount() - self.grids("b.vdb")["density"].activeVoxelCount(), 2)
+
+    def test_levels_are_named_and_nested(self):
+        self.check(0, CRAMBIN, *FAST, "--for", "arnold", "--mips", "2", "-o", "a.vdb")
+        grids = self.grids("a.vdb")
+        self.assertEqual(set(grids), {"surface"} | {f"{name}_level_{k}" for name in ("density", "Cd") for k in range(3)})
+        sums = []
+        for k in range(3):
+            fog = grids[f"density_level_{k}"]
+            self.assertEqual(fog.transform.voxelSize(), (2 ** k,) * 3)
+            self.assertEqual(fog.gridClass, "fog volume")
+            sums.append(8 ** k * sum(item.value * item.count for item in fog.citerOnValues()))
+        for level in sums:
+            self.assertAlmostEqual(level / sums[0], 1, delta=0.02)
+        self.check(2, CRAMBIN, "--mips", "11", "-o", "b.vdb", says=["--mips", "0 to 10"])
+
+    def test_labels_as_floats(self):
+        """Old readers get the whole file, and convert the same surface."""
+        words = [*DIMER, *FAST, "--fields", "atom_id,chain_id,density"]
+        for kind in ("int", "float"):
+            self.check(0, *words, "--labels", kind, "-o", f"{kind}.vdb")
+            self.check(0, "convert", f"{kind}.vdb", "--color", "chain", "-o", f"{kind}.ply")
+        self.assertEqual((self.folder / "int.ply").read_bytes(), (self.folder / "float.ply").read_bytes())
+        grids, _ = vdb.readAll(str(self.folder / "float.vdb"))
+        labels = {grid.name: grid for grid in grids}
+        self.assertEqual(labels["chain_id"].valueTypeName, "float")
+        self.assertEqual({item.value for item in labels["chain_id"].citerOnValues()}, {0, 1})
+        box = labels["surface"].evalActiveVoxelBoundingBox()
+        self.assertNotEqual(box, labels["density"].evalActiveVoxelBoundingBox())
+        self.check(0, *words, "--labels", "float", "--one-box", "-o", "box.vdb")
+        grids, _ = vdb.readAll(str(self.folder / "box.vdb"))
+        self.assertEqual(len({grid.evalActiveVoxelBoundingBox() for grid in grids}), 1)
+
     def test_colors_fill_the_fog(self):
         self.check(0, *DIMER, *FAST, "--for", "blender", "-o", "a.vdb")
         grids = self.grids("a.vdb")

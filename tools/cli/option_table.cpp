@@ -553,9 +553,13 @@ OptionGroup sceneOptions()
         return stored(c.forApbs ? "apbs" : nameOf(c.scene.host));
     };
     center.shownIn = 0; // pictures look the same
+    Option labels = fileOption("labels", wholes), mips = fileOption("mips", wholes);
+    labels.stored = [](const CommandLine& c) { return stored(nameOf(c.scene.form.labels)); };
+    mips.stored = [](const CommandLine& c) { return stored(std::to_string(c.scene.form.mips)); };
     return {
         "Scene",
-        {host, numberKept(MOLSURF_OF(scene.fogDensity), fileOption("fog-density", wholes)),
+        {host, numberKept(MOLSURF_OF(scene.fogDensity), fileOption("fog-density", wholes)), labels,
+         kept(MOLSURF_OF(scene.form.oneBox), fileOption("one-box", wholes)), mips,
          kept(MOLSURF_OF(center), center)},
         {{"vdb_molsurf 1crn.pdb --for blender -o 1crn.vdb", "a volume with colours for Blender"},
          {"vdb_molsurf 1crn.pdb --for usd --center -o 1crn.vdb", "a volume and its stage of USD"}}};

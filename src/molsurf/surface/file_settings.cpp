@@ -25,8 +25,8 @@ FileSetting programSetting()
 {
     return {"for",
             "PROGRAM[=SCALE]",
-            "blender, blender4 (up to 4.5), houdini or usd: a .vdb with\n"
-            "density and Cd as that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
+            "blender, blender4 (up to 4.5), houdini, usd, unreal or arnold: a .vdb\n"
+            "with density and Cd as that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
             "units per Å; usd: a .usda beside the .vdb; apbs: -o FOLDER/ gets\n"
             "its input, charges and maps",
             "",
@@ -38,12 +38,26 @@ FileSetting programSetting()
                 const auto scene = parseScene(values.back());
                 if (!scene)
                     wrongValue("for",
-                               "apbs, blender, blender4, houdini or usd, the last four perhaps "
-                               "with =mn-0.01, =mn-0.1, =nm or =UNITS_PER_Å",
+                               "apbs, blender, blender4, houdini, usd, unreal or arnold, all but "
+                               "apbs perhaps with =mn-0.01, =mn-0.1, =nm or =UNITS_PER_Å",
                                values.back(), didYouMean(values.back(), programNames()));
                 to.scene.host = scene->host;
                 to.scene.scale = scene->scale;
+                to.scene.form.oneBox |= scene->form.oneBox;
+                to.scene.form.half = scene->form.half;
             }};
+}
+
+FileSetting mipsSetting()
+{
+    return {"mips",
+            "N",
+            "N coarser levels of density and Cd in a .vdb, each with\n"
+            "voxels twice as large: density_level_0, density_level_1, ...",
+            "0",
+            holds::anyGrids,
+            {},
+            countSetter("mips", 0, 10, MOLSURF_OF(scene.form.mips))};
 }
 
 FileSetting latticeSetting()
@@ -92,6 +106,14 @@ const std::vector<FileSetting>& fileSettings()
                                  ""},
                                 holds::anyGrids, {1e-6, 1e6, "a number from 1e-6 to 1e6"},
                                 MOLSURF_OF(scene.fogDensity)),
+        wordRow<FileSettings>("labels",
+                              "type of atom_id, chain_id, group_id and pocket_id in a .vdb:\n"
+                              "int32; or float, for readers that know no int32",
+                              holds::anyGrids, std::vector{LabelType::Int, LabelType::Float},
+                              MOLSURF_OF(scene.form.labels)),
+        switchRow<FileSettings>("one-box", "all grids of a .vdb have one box of active voxels",
+                                holds::anyGrids, MOLSURF_OF(scene.form.oneBox)),
+        mipsSetting(),
         switchRow<FileSettings>("center", "the middle of the surface comes to the origin",
                                 holds::anyGrids | holds::Triangles | holds::VertexCurvatures,
                                 MOLSURF_OF(center)),

@@ -11,6 +11,7 @@
 #include "molsurf/show/color/color_table.h"
 #include "molsurf/show/color/curvature_colors.h"
 #include "molsurf/show/color/palette.h"
+#include "molsurf/show/io/grid_form.h"
 #include "molsurf/surface/field_table.h"
 
 #include <openvdb/tools/ChangeBackground.h>
@@ -313,10 +314,11 @@ void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fiel
         groupColors(atoms, progress));
 }
 
-StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata,
+StoredSurface storedSurface(const openvdb::GridPtrVec& written, const openvdb::MetaMap& metadata,
                             const SurfaceOptions& options, const SelectOptions::Coloring& coloring,
                             Progress& progress)
 {
+    const openvdb::GridPtrVec grids = withIntLabels(written);
     StoredSurface stored;
     stored.names.coloring = coloring;
     stored.scale = numberOf(metadata, "scene.units_per_angstrom", 1.0);

@@ -34,7 +34,7 @@ TEST(PlaceInScene, MovesScalesAndShifts)
     scene.host = Host::Blender4;
     scene.scale = 0.1;
     scene.center = openvdb::Vec3d(0.3, 1.2, -0.7);
-    const auto placed = placeInScene({grid}, scene);
+    const auto placed = placeInScene({grid}, scene, true);
     const auto out = openvdb::gridConstPtrCast<openvdb::FloatGrid>(placed.at(0));
     ASSERT_TRUE(out);
     // The centre of the sphere is at the origin once Blender has added half a voxel.
@@ -55,7 +55,7 @@ TEST(PlaceInScene, MovesScalesAndShifts)
 TEST(PlaceInScene, BlenderFiveTakesGridsAsTheyAre)
 {
     const auto grid = test::ballGrid();
-    const auto placed = placeInScene({grid}, *parseScene("blender=0.1"));
+    const auto placed = placeInScene({grid}, *parseScene("blender=0.1"), true);
     const openvdb::Vec3d x(0.3, 1.2, -0.7);
     EXPECT_LT((placed.at(0)->indexToWorld(grid->worldToIndex(x)) - 0.1 * x).length(), 1e-9);
 }
@@ -71,7 +71,7 @@ TEST(PlaceInScene, FogHasOneOpticalDepth)
         Scene scene = *parseScene(word);
         scene.fogDensity = 0.8;
         const auto placed =
-            openvdb::gridConstPtrCast<openvdb::FloatGrid>(placeInScene({fog}, scene).at(0));
+            openvdb::gridConstPtrCast<openvdb::FloatGrid>(placeInScene({fog}, scene, true).at(0));
         const double depth = placed->tree().getValue(openvdb::Coord(1)) * placed->voxelSize()[0];
         EXPECT_NEAR(depth, 0.8 * 0.5 * fog->voxelSize()[0], 1e-6) << word;
     }
@@ -92,7 +92,7 @@ TEST(PlaceInScene, ValuesWithoutALengthStay)
     Scene scene;
     scene.host = Host::Houdini;
     scene.scale = 0.1;
-    const auto placed = placeInScene({fog, curvature}, scene);
+    const auto placed = placeInScene({fog, curvature}, scene, true);
     const openvdb::Coord voxel = fog->cbeginValueOn().getCoord();
     const float before = fog->tree().getValue(voxel);
     const auto value = [&](std::size_t i) {

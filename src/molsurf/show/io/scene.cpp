@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/show/io/scene.h"
 
+#include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
 
 #include <openvdb/tools/ChangeBackground.h>
@@ -18,13 +19,16 @@ namespace
 struct HostRow {
     Host host;
     const char* word;
-    double shift; ///< that brings grids to where it shows them rightly [voxel]
+    double shift;   ///< that brings grids to where it shows them rightly [voxel]
+    bool fogsAlone; ///< it takes no level sets, and fogs only with 16 bits in one box
 };
-constexpr HostRow hosts[] = {{Host::None, "none", 0.0},
-                             {Host::Blender, "blender", 0.0},
-                             {Host::Blender4, "blender4", -0.5},
-                             {Host::Houdini, "houdini", 0.0},
-                             {Host::Usd, "usd", 0.0}};
+constexpr HostRow hosts[] = {{Host::None, "none", 0.0, false},
+                             {Host::Blender, "blender", 0.0, false},
+                             {Host::Blender4, "blender4", -0.5, false},
+                             {Host::Houdini, "houdini", 0.0, false},
+                             {Host::Usd, "usd", 0.0, false},
+                             {Host::Unreal, "unreal", 0.0, true},
+                             {Host::Arnold, "arnold", 0.0, false}};
 
 const HostRow& rowOf(Host host)
 {
@@ -65,6 +69,7 @@ std::optional<Scene> parseScene(const std::string& text)
         if (row.host == Host::None || text.substr(0, split) != row.word) continue;
         Scene scene;
         scene.host = row.host;
+        scene.form.oneBox = scene.form.half = row.fogsAlone;
         if (split == std::string::npos) return scene;
         const auto scale = parseScale(text.substr(split + 1));
         if (!scale) return {};
@@ -112,10 +117,13 @@ double factorOf(const openvdb::GridBase& grid, const Scene& scene)
 
 } // namespace
 
-openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene& scene)
+openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene& scene,
+                                  bool isMoved)
 {
+    if (!scene.known() && !isMoved) return scene.form.changes() ? formed(grids, scene.form) : grids;
     openvdb::GridCPtrVec out;
     for (const auto& grid : grids) {
+        if (rowOf(scene.host).fogsAlone && lengthPower(*grid) == 1) continue;
         const double factor = factorOf(*grid, scene);
         const auto floats = openvdb::gridConstPtrCast<openvdb::FloatGrid>(grid);
         openvdb::GridBase::Ptr placed;
@@ -132,7 +140,11 @@ openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene
         placed->setTransform(transform);
         out.push_back(placed);
     }
-    return out;
+    if (out.empty())
+        throw Error(ErrorKind::Usage, std::string("`for` ") + nameOf(scene.host) +
+                                          ": expected a fog, got distances alone [hint: `fields` "
+                                          "density,Cd]");
+    return scene.form.changes() ? formed(out, scene.form) : out;
 }
 
 void describeScene(const Scene& scene, openvdb::MetaMap& metadata)
