@@ -276,7 +276,7 @@ int compareFiles(const CommandLine& call, Clock::time_point start, Terminal& ter
     lap("search tree");
     report.distances = molsurf::compare(a.operand, toA, b.operand, toB, terminal);
     lap("distance");
-    chooseColors(call.colorBySign, call.colorRange, report);
+    chooseColors(call.colorBySign, call.colorRange, call.atoms.coloring.palette, report);
     report.version = MOLSURF_VERSION;
     report.command = call.command;
     report.a = described(a);

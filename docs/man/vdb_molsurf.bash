@@ -19,7 +19,7 @@ _vdb_molsurf()
         "build":--group-by) words="chain entity class copy" ;;
         "build":--split) words="group" ;;
         "build":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
-        "build":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
+        "build":--palette) words="viridis cividis batlow OrRd RdBu BuRd OrPu turbo plddt" ;;
         "build":--value-of) words="atom residue" ;;
         "build":--areas) words="atoms residues contacts interfaces pockets pore tunnels forces" ;;
         "build":--contacts) words="atom residue chain" ;;
@@ -41,7 +41,7 @@ _vdb_molsurf()
         "batch":--group-by) words="chain entity class copy" ;;
         "batch":--split) words="group" ;;
         "batch":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
-        "batch":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
+        "batch":--palette) words="viridis cividis batlow OrRd RdBu BuRd OrPu turbo plddt" ;;
         "batch":--value-of) words="atom residue" ;;
         "batch":--areas) words="atoms residues contacts interfaces pockets pore tunnels forces" ;;
         "batch":--contacts) words="atom residue chain" ;;
@@ -57,6 +57,7 @@ _vdb_molsurf()
         "batch":--require) words="watertight manifold components= cavities= genus= min-angle=" ;;
         "compare":--format) words="vdb ply html json png legend.svg view" ;;
         "compare":--color) words="distance signed-distance" ;;
+        "compare":--palette) words="viridis cividis batlow OrRd RdBu BuRd OrPu turbo plddt" ;;
         "compare":--superpose) words="auto" ;;
         "compare":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "compare":--match) words="none ses" ;;
@@ -70,7 +71,7 @@ _vdb_molsurf()
         "convert":--format) words="vdb ply obj stl off wrl vtk glb 3mf vert face poly msh msh2 nvdb mrc dx cxc pml html json png legend.svg view" ;;
         "convert":--fields) words="all surface sas spline mean_curvature gaussian_curvature principal_curvature_1 principal_curvature_2 shape_index curvedness principal_direction_1 principal_direction_2 density atom_id chain_id group_id Cd value pocket_id pocket_depth pocket_room depth v" ;;
         "convert":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature" ;;
-        "convert":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
+        "convert":--palette) words="viridis cividis batlow OrRd RdBu BuRd OrPu turbo plddt" ;;
         "convert":--view) words="auto" ;;
         "convert":--background) words="transparent" ;;
         "convert":--style) words="soft glossy outline flat" ;;
@@ -81,7 +82,7 @@ _vdb_molsurf()
         "bricks plan":--coarse) words="atom residue" ;;
         "bricks plan":--group-by) words="chain entity class copy" ;;
         "bricks plan":--color) words="none chain group element residue nucleotide illustrative hetero mean-curvature gaussian-curvature pocket copy entity class bfactor occupancy charge hydrophobicity rainbow radius depth table=FILE potential=FILE residue-type plain=#RRGGBB" ;;
-        "bricks plan":--palette) words="viridis cividis batlow RdBu BuRd OrPu turbo plddt" ;;
+        "bricks plan":--palette) words="viridis cividis batlow OrRd RdBu BuRd OrPu turbo plddt" ;;
         "bricks plan":--value-of) words="atom residue" ;;
         "bricks plan":--regularizer) words="gradient area" ;;
         "bricks plan":--flow) words="rest newton paper" ;;
@@ -90,7 +91,7 @@ _vdb_molsurf()
     case $verb in
         "build") options="--output -o --format --force --skip-existing --select --model --assembly --instances --by-symmetry --weld --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --superpose --max-input --frames --trajectory --update-selections --first-frame --fps --surface --voxel --lod --blobbiness --fill-cavities --walls --remesh --density --adapt --fields --vdb-half --curvature-totals --measures --epsilon --match --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --plain-color --crisp --areas --contacts --pockets --pocket-at --probe-in --probe-out --pocket-cut --pocket-neck --pore --tunnels-from --tunnel-probe --for --fog-density --labels --one-box --mips --center --print-scale --min-wall --apbs-grid --pdie --sdie --ion-conc --view --up --turn --size --background --style --show --label --ruler --panel --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --memory --max-hours --dry-run --require --threads -j --quiet -q --verbose -v --no-progress --config --list-radii --version -V --help -h --help-all" ;;
         "batch") options="--folder -O --formats --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fill-cavities --remesh --density --adapt --fields --vdb-half --curvature-totals --measures --epsilon --match --resolution --coarse --match-volume --groups --group-by --split --surface-of --interfaces --color --range --palette --value-of --flat-values --outward --plain-color --areas --contacts --pockets --pocket-at --probe-in --probe-out --pocket-cut --pocket-neck --pore --tunnels-from --tunnel-probe --for --fog-density --labels --one-box --mips --center --print-scale --min-wall --view --up --turn --size --background --style --show --label --ruler --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --require --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
-        "compare") options="--output -o --format --force --color --range --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --superpose --max-input --surface --voxel --blobbiness --fill-cavities --epsilon --match --resolution --coarse --match-volume --view --up --turn --size --background --style --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
+        "compare") options="--output -o --format --force --color --palette --range --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --superpose --max-input --surface --voxel --blobbiness --fill-cavities --epsilon --match --resolution --coarse --match-volume --view --up --turn --size --background --style --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --lambda --regularizer --flow --max-steps --steps --tolerance --spline-level --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
         "convert") options="--output -o --format --force --iso --remesh --density --adapt --fields --color --range --palette --plain-color --print-scale --view --up --turn --size --background --style --opacity --all-walls --clip --depth-cue --legend --scale-bar --dpi --turntable --max-hours --dry-run --threads -j --quiet -q --verbose -v --no-progress --config --version -V --help -h --help-all" ;;
         "bricks plan") options="--output -o --force --select --model --assembly --copies --altloc --no-hydrogens --ions --hetero --no-hetero --waters --radii --probe --max-input --surface --voxel --blobbiness --fields --vdb-half --epsilon --match --resolution --coarse --groups --group-by --color --range --palette --value-of --flat-values --outward --lambda --regularizer --flow --steps --tolerance --bricks --memory --threads -j --quiet -q --no-progress --config --version -V --help -h --help-all" ;;
         "bricks run") options="--force --max-hours --threads -j --quiet -q --no-progress --version -V --help -h --help-all" ;;

@@ -18,7 +18,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "build:--split") compadd -- 'group'; return ;;
     "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
-    "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
+    "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
     "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
     "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
@@ -40,7 +40,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "batch:--split") compadd -- 'group'; return ;;
     "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
-    "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
+    "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
     "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
     "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
@@ -56,6 +56,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "compare:--format") compadd -- 'vdb' 'ply' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
+    "compare:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "compare:--superpose") compadd -- 'auto'; return ;;
     "compare:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "compare:--match") compadd -- 'none' 'ses'; return ;;
@@ -69,7 +70,7 @@ case "$verb:$words[CURRENT-1]" in
     "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'nvdb' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
-    "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
+    "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "convert:--view") compadd -- 'auto'; return ;;
     "convert:--background") compadd -- 'transparent'; return ;;
     "convert:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -80,7 +81,7 @@ case "$verb:$words[CURRENT-1]" in
     "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
-    "bricks plan:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
+    "bricks plan:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "bricks plan:--value-of") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "bricks plan:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
@@ -326,7 +327,8 @@ if [[ $words[CURRENT] == -* ]]; then
       '-o:file to write; repeats; the extension says what\:'
       '--format:what -o - writes\: one of'
       '--force:replace existing files'
-      '--color:distance (viridis) or signed-distance (blue\: A is'
+      '--color:distance (OrRd) or signed-distance (blue\: A is'
+      '--palette:colours of values and curvatures, low ones first\: viridis,'
       '--range:distance at the end of the colours [Å]'
       '--select:atoms\: "chain A and resid 5-9" or "/1/A/5-9|*;polymer"'
       '--model:number of the model in the file'

@@ -170,15 +170,19 @@ class Output(CompareTest):
     def test_colours(self):
         self.check(0, "compare", "a.obj", "b.obj", "-o", "d.ply", "--range", "0.25")
         data = (self.folder / "d.ply").read_bytes()
-        self.assertIn(b"comment colors: distance in Angstrom, map viridis from 0 to 0.25\n", data)
-        self.assertIn(b"comment color 0.25 253 231 37\n", data)
+        self.assertIn(b"comment colors: distance in Angstrom, map OrRd from 0 to 0.25\n", data)
+        self.assertIn(b"comment color 0.25 127 0 0\n", data)
+        self.assertIn(b"comment color 0 255 247 236\n", data)  # light where they agree
+        self.check(0, "compare", "a.obj", "b.obj", "-o", "e.ply", "--palette", "batlow")
+        self.assertIn(b"map batlow from 0 to", (self.folder / "e.ply").read_bytes())
+        self.check(2, "compare", "a.obj", "b.obj", "-o", "e.ply", "--palette", "pink", says=["--palette", "OrRd"])
         names, vertices, triangles = read_ply(data)
         self.assertEqual(names[-3:], ["red", "green", "blue"])
         self.assertEqual((len(vertices), len(triangles)), (8, 12))
         at = names.index("distance")
         for vertex in vertices:
             self.assertAlmostEqual(vertex[at], 0.25 if vertex[0] == 0 else 0)
-            self.assertEqual(vertex[-3:], (253, 231, 37) if vertex[0] == 0 else (68, 1, 84))
+            self.assertEqual(vertex[-3:], (127, 0, 0) if vertex[0] == 0 else (255, 247, 236))
         self.check(0, "compare", "a.obj", "b.obj", "-o", "s.ply", "-o", "s.json", "--color",
                    "signed-distance")
         names, vertices, _ = read_ply((self.folder / "s.ply").read_bytes())

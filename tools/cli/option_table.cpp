@@ -280,9 +280,12 @@ OptionGroup outputOptions()
     Option formats{"formats", 0, "LIST", several + inLines(formatsOf(Batch)), preset, Batch};
     formats.set = [](CommandLine& call, const Values& values) { call.formats = values.back(); };
     Option shown = either("color",
-                          "distance (viridis) or signed-distance (blue: A is\ninside B, red: "
+                          "distance (OrRd) or signed-distance (blue: A is\ninside B, red: "
                           "outside)",
                           "signed-distance", "distance", Compare, MOLSURF_OF(colorBySign));
+    Option palette = setting("palette", Compare);
+    palette.preset = "that of --color";
+    palette.stored = nullptr; // meshes have colours, too
     return {
         "Output",
         {written(Build, ""), written(Convert, "; .vdb with --color"),
@@ -299,7 +302,7 @@ OptionGroup outputOptions()
               "do nothing if the files are of the same input, options and\n"
               "version, by the report; make and replace them otherwise",
               Build, MOLSURF_OF(skipExisting)),
-         shown,
+         shown, palette,
          number("range", "D", "distance at the end of the colours [Å]",
                 "that of 99 % of the vertices", Compare, 1e-300, 1e300, "a positive number of Å",
                 MOLSURF_OF(colorRange))},

@@ -91,6 +91,21 @@ std::vector<Palette> rising()
               {250, 204, 250}}}};
 }
 
+/// From light to dark.
+Palette falling()
+{
+    return {"OrRd",
+            {{255, 247, 236},
+             {254, 232, 200},
+             {253, 212, 158},
+             {253, 187, 132},
+             {252, 141, 89},
+             {239, 101, 72},
+             {215, 48, 31},
+             {179, 0, 0},
+             {127, 0, 0}}};
+}
+
 /// Through white, and turbo.
 std::vector<Palette> others()
 {
@@ -137,6 +152,7 @@ const std::vector<Palette>& paletteTable()
         turned.word = "BuRd";
         std::reverse(turned.stops.begin(), turned.stops.end());
         rows.insert(rows.begin() + 4, turned);
+        rows.insert(rows.begin() + 3, falling());
         rows.push_back({"plddt", {}, true}); // one stop a unit, from 0 to 100
         for (int i = 0; i <= 100; ++i)
             rows.back().stops.push_back(i >= 90   ? Color{0, 83, 214}

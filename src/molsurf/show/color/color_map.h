@@ -34,8 +34,9 @@ struct Palette {
 };
 
 /// All of them. Lightness rises evenly along viridis and cividis (matplotlib; CC0) and batlow
-/// (Crameri, doi:10.5281/zenodo.1243862), so equal steps look equal, also in grey. Those that run
-/// through white to both sides darken alike away from it (Brewer, colorbrewer2.org). The
+/// (Crameri, doi:10.5281/zenodo.1243862), so equal steps look equal, also in grey. It falls along
+/// OrRd; those that run through white to both sides darken alike away from it (Brewer,
+/// colorbrewer2.org). The
 /// colour-blind can read all but turbo (Mikhailov, 2019). plddt is that of the AlphaFold database.
 const std::vector<Palette>& paletteTable();
 

@@ -193,11 +193,12 @@ std::vector<std::string> colorComments(const ComparisonReport& report)
 
 } // namespace
 
-void chooseColors(bool bySign, double range, ComparisonReport& report)
+void chooseColors(bool bySign, double range, const std::string& palette, ComparisonReport& report)
 {
     const double end = range > 0.0 ? range : usualRange(report.distances.aToB.distance);
     report.shown = bySign ? "signed_distance" : "distance";
-    report.color = bySign ? scaleOf("RdBu", -end, end) : scaleOf("viridis", 0.0, end);
+    const std::string preset = bySign ? "RdBu" : "OrRd";
+    report.color = scaleOf(palette.empty() ? preset : palette, bySign ? -end : 0.0, end);
 }
 
 Mesh comparisonMesh(const Mesh& a, const ComparisonReport& report)

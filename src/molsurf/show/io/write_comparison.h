@@ -61,7 +61,8 @@ std::string comparisonTable(const ComparisonReport& report);
 /// Chooses the scale of the colours.
 /// @param[in] bySign  whether they show the signed distance
 /// @param[in] range   distance at the end of the colours [Å]; 0: that of 99 % of the vertices
-void chooseColors(bool bySign, double range, ComparisonReport& report);
+/// @param[in] palette  that there is; empty: light where the surfaces agree
+void chooseColors(bool bySign, double range, const std::string& palette, ComparisonReport& report);
 
 /// The mesh of A with the distances of its vertices from B, and their colours.
 Mesh comparisonMesh(const Mesh& a, const ComparisonReport& report);
