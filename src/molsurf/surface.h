@@ -192,18 +192,21 @@ private:
 };
 
 /// A row for every ball: chain, residue, number, insertion_code, label_chain, atom, altloc,
-/// element, atom_id (its place in the file, from 0), radius_A, area, and of a result with depths
-/// depth_A.
+/// element, atom_id (its place in the file, from 0), radius_A, area, polar_area and apolar_area
+/// (one of them the area, the other 0; both 0 for a bead), and of a result with depths depth_A.
+/// Apolar are C, P, S, Se and halogens, polar all others; a hydrogen is as the heavy atom beside
+/// it.
 /// @throws Error(ErrorKind::Usage) if the atoms have no names or the result has no areas of balls,
 ///         or of others; the message names the option that makes them
 Table atomTable(const BallSet& atoms, const MolecularSurface& result);
 
 /// A row for every residue: chain, residue, number, insertion_code, label_chain, atoms (how many
-/// balls), area, and for solvent-accessible surfaces relative_accessibility, the area's share of
-/// the largest that such a residue has between two glycines, not a number where that is not known.
-/// Of a result with depths depth_A is the mean of its balls', and ca_depth_A that of its CA.
-/// If the balls have values mean_NAME: the mean of the value on the residue's part of the surface,
-/// and integral_NAME_A2: its integral there, in the value's unit times Å^2.
+/// balls), area, polar_area and apolar_area, and for solvent-accessible surfaces
+/// relative_accessibility, the area's share of the largest that such a residue has between two
+/// glycines, not a number where that is not known. Of a result with depths depth_A is the mean of
+/// its balls', and ca_depth_A that of its CA. If the balls have values mean_NAME: the mean of the
+/// value on the residue's part of the surface, and integral_NAME_A2: its integral there, in the
+/// value's unit times Å^2.
 /// @param[in] probe  radius that the surface is made with [Å]; accessibilities are relative at 1.4
 ///                   alone
 /// @throws as atomTable()
@@ -229,8 +232,10 @@ Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurf
 /// A row for every residue that an interface buries: group_1 and group_2, the group that it belongs
 /// to, its name, area_alone and area_together on the surfaces of its group alone and of both,
 /// buried_area, their difference, and area, half of that: its part of the interface. The areas
-/// of an interface's rows add up to Report::Interface::area. Each row has the fit of the pair, too:
-/// shape_complementarity, median_distance_A, gap_volume and gap_index_A.
+/// of an interface's rows add up to Report::Interface::area. buried_polar_area and
+/// buried_apolar_area are the parts of buried_area by the class of atoms, as of atomTable(). Each
+/// row has the fit of the pair, too: shape_complementarity, median_distance_A, gap_volume and
+/// gap_index_A.
 /// @throws Error(ErrorKind::Usage) if the atoms have no names, or the report no interfaces with
 ///         the balls that they bury
 Table interfaceTable(const BallSet& atoms, const Report& report);

@@ -152,6 +152,25 @@ class Areas(ToolTest):
                    if r["atom_1"] == r["atom_2"] == "SG" and float(r["distance_A"]) < 2.2}
         self.assertEqual(sulfurs, {frozenset(p) for p in (("3", "40"), ("4", "32"), ("16", "26"))})
 
+    def test_polar_and_apolar(self):
+        """By element; a hydrogen is as its heavy atom."""
+        self.write("h.pdb", "ATOM      1  N   GLY A   1       0.000   0.000   0.000  1.00  0.00           N\n"
+                            "ATOM      2  H   GLY A   1      -1.000   0.000   0.000  1.00  0.00           H\n"
+                            "ATOM      3  CA  GLY A   1       1.450   0.000   0.000  1.00  0.00           C\n"
+                            "ATOM      4  HA2 GLY A   1       1.900   1.000   0.000  1.00  0.00           H\n"
+                            "HETATM    5 ZN    ZN A   2       9.000   0.000   0.000  1.00  0.00          ZN\n")
+        self.check(0, "h.pdb", *SAS, "--hetero", "-o", "h.atoms.csv", "-o", "h.residues.csv")
+        atoms = self.table("h.atoms.csv")
+        polar = {row["atom"] for row in atoms if row["polar_area"] == row["area"]}
+        self.assertEqual(polar, {"N", "H", "ZN"})
+        for row in [*atoms, *self.table("h.residues.csv")]:
+            self.assertAlmostEqual(float(row["polar_area"]) + float(row["apolar_area"]), float(row["area"]), 9)
+        self.assertAlmostEqual(self.total(atoms, "polar_area"), self.total(self.table("h.residues.csv"), "polar_area"), 9)
+        self.check(0, ASPARTATE, *SAS, "--radii", "naccess", "-o", "a.interfaces.csv")
+        for row in self.table("a.interfaces.csv"):
+            self.assertAlmostEqual(float(row["buried_polar_area"]) + float(row["buried_apolar_area"]),
+                                   float(row["buried_area"]), 8)
+
     def test_interfaces(self):
         def area(*words):
             self.check(0, ASPARTATE, *SAS, *words, "-o", "x.json", "--areas", "residues", "--force")

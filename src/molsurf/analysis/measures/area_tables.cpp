@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/analysis/measures/area_tables.h"
 
+#include "molsurf/analysis/measures/polarity.h"
 #include "molsurf/error.h"
 #include "molsurf/molecule/selection/ball_names.h"
 #include "molsurf/molecule/selection/subset.h"
@@ -94,6 +95,20 @@ Numbers sumsOf(const BallNames& names, const Numbers& values)
         out[std::size_t(names.residueOf[i])] += values[i];
     return out;
 }
+
+/// Areas of the first balls, 0 for those of another class.
+Numbers areasOf(Polarity wanted, const BallSet& atoms, const Numbers& areas)
+{
+    const std::vector<Polarity> classes = polarityOf(atoms);
+    Numbers out;
+    for (std::size_t i = 0; i < areas.size(); ++i)
+        out.push_back(classes[i] == wanted ? areas[i] : 0.0);
+    return out;
+}
+
+/// The columns of areas by class.
+constexpr std::array<std::pair<const char*, Polarity>, 2> classColumns = {
+    std::pair("polar_area", Polarity::Polar), std::pair("apolar_area", Polarity::Apolar)};
 
 /// Adds the mean of a value over each residue's part of the surface, and its integral.
 /// @param[in] balls  how many own balls each residue has; residues with 0 have no row
@@ -197,6 +212,8 @@ Table atomTable(const BallSet& atoms, const MolecularSurface& result)
     Table table{"atoms", {}};
     addAtoms(atoms, result.ballAreas.size(), table);
     table.columns.push_back({"area", result.ballAreas});
+    for (const auto& [name, polarity] : classColumns)
+        table.columns.push_back({name, areasOf(polarity, atoms, result.ballAreas)});
     Numbers depth = result.ballDepths;
     depth.resize(std::min(depth.size(), result.ballAreas.size())); // without images
     if (!depth.empty()) table.columns.push_back({"depth_A", std::move(depth)});
@@ -226,6 +243,13 @@ Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& r
     residues.moveTo(table);
     table.columns.push_back({"atoms", std::move(count)});
     table.columns.push_back({"area", std::move(area)});
+    for (const auto& [name, polarity] : classColumns) {
+        const Numbers sums = sumsOf(names, areasOf(polarity, atoms, result.ballAreas));
+        Numbers column;
+        for (std::size_t r = 0; r < sums.size(); ++r)
+            if (balls[r] > 0) column.push_back(sums[r]);
+        table.columns.push_back({name, std::move(column)});
+    }
     constexpr double ofMaxima = 1.4; // probe [Å]
     if (result.report.areasOf == nameOf(SurfaceKind::SolventAccessible) && probe == ofMaxima)
         table.columns.push_back({"relative_accessibility", std::move(relative)});
@@ -318,13 +342,21 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     Texts first, second, group;
     Numbers alone, together, buried, area;
     std::array<Numbers, 4> fits;
+    std::array<Numbers, 2> byClass;
+    const std::vector<Polarity> classes = polarityOf(atoms);
     for (const Report::Interface& interface : report.interfaces) {
         // By residue, those of the first group first: the areas apart, and together.
-        std::map<std::pair<bool, std::int32_t>, std::pair<double, double>> sums;
+        using Key = std::pair<bool, std::int32_t>;
+        std::map<Key, std::pair<double, double>> sums;
+        std::map<Key, std::array<double, 2>> classSums;
         for (const Report::Interface::Buried& b : interface.buried) {
-            auto& sum = sums[{!b.ofFirst, names.residueOf[b.ball]}];
+            const Key key(!b.ofFirst, names.residueOf[b.ball]);
+            auto& sum = sums[key];
             sum.first += b.alone;
             sum.second += b.together;
+            for (std::size_t k = 0; k < classColumns.size(); ++k)
+                if (classes[b.ball] == classColumns[k].second)
+                    classSums[key][k] += b.alone - b.together;
         }
         for (const auto& [key, sum] : sums) {
             first.push_back(interface.first);
@@ -335,6 +367,8 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
             together.push_back(sum.second);
             buried.push_back(sum.first - sum.second);
             area.push_back(0.5 * (sum.first - sum.second));
+            for (std::size_t k = 0; k < byClass.size(); ++k)
+                byClass[k].push_back(classSums[key][k]);
             const Report::Interface::Fit& fit = interface.fit;
             const std::array<double, 4> row = {fit.shape, fit.distance, fit.gapVolume,
                                                fit.gapIndex};
@@ -350,6 +384,8 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     table.columns.push_back({"area_together", std::move(together)});
     table.columns.push_back({"buried_area", std::move(buried)});
     table.columns.push_back({"area", std::move(area)});
+    table.columns.push_back({"buried_polar_area", std::move(byClass[0])});
+    table.columns.push_back({"buried_apolar_area", std::move(byClass[1])});
     constexpr std::array<const char*, 4> ofPairs = {"shape_complementarity", "median_distance_A",
                                                     "gap_volume", "gap_index_A"};
     for (std::size_t k = 0; k < ofPairs.size(); ++k)
