@@ -355,16 +355,20 @@ nb::tuple distancesOf(MadeSurface& surface, const Positions& positions, const Ho
                           owned<double>(std::move(normal)), owned<std::int32_t>(std::move(atom)));
 }
 
-/// Derivatives of volume and area by the atoms' places.
+/// Derivatives of volume and area by the atoms' places, and the numbers of atoms beside gaps and
+/// beside ridges.
 nb::tuple gradientsOf(MadeSurface& surface, const How& how)
 {
     checkWhole(surface, "forces");
     MolecularSurface::Gradients found = run(how, [&](Progress& progress) {
         return surfaceGradients(*surface.atoms, surface.options, surface.result.mesh, progress);
     });
-    const auto beside = std::count(found.besideGap.begin(), found.besideGap.end(), 1);
+    const auto marked = [](const std::vector<char>& marks) {
+        return std::count(marks.begin(), marks.end(), 1);
+    };
+    const auto gaps = marked(found.besideGap), ridges = marked(found.besideRidge);
     return nb::make_tuple(owned<double>(std::move(found.volume)),
-                          owned<double>(std::move(found.area)), beside);
+                          owned<double>(std::move(found.area)), gaps, ridges);
 }
 
 nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::string& level)

@@ -333,8 +333,8 @@ class Surface:
         Returns an array (atoms, 3) float64, in your unit of energy per Å.
 
         Raises TypeError without gamma and pressure, ValueError for numbers that are not finite, and OptionError for the
-        kind gaussian, which has no forces. A warning counts atoms of variational beside gaps that were decided: their
-        forces are uncertain.
+        kind gaussian, which has no forces. A warning counts atoms of variational beside gaps that were decided or
+        beside ridges that were rounded: their forces are uncertain.
         """
         if gamma is None and pressure is None:
             raise TypeError("forces: expected gamma, energy per Å², or pressure, energy per Å³ [hint: forces(gamma=1)]")
@@ -342,10 +342,11 @@ class Surface:
         for name, value in (("gamma", gamma), ("pressure", pressure)):
             if not np.isfinite(float(value)):
                 raise ValueError(f"{name}: expected a finite number")
-        volume, area, beside = _called(self._core.gradients, progress=progress, threads=threads)
-        if beside:
-            warnings.warn(f"forces: {beside} atoms lie beside gaps that the surface closes or opens; their forces leave out how "
-                          "rounding changes there and can be wrong by their own size [hint: kind=\"ses\" is in closed form]", stacklevel=2)
+        volume, area, gaps, ridges = _called(self._core.gradients, progress=progress, threads=threads)
+        for count, where in ((gaps, "gaps that the surface closes or opens"), (ridges, "ridges that the surface rounds")):
+            if count:
+                warnings.warn(f"forces: {count} atoms lie beside {where}; their forces leave out how rounding changes there and "
+                              "can be wrong by their own size [hint: kind=\"ses\" is in closed form]", stacklevel=2)
         return -(float(gamma) * area + float(pressure) * volume)
 
     def sample(self, n, seed=None):

@@ -51,6 +51,9 @@ struct MolecularSurface : LevelSetSurface {
         /// Of the variational surface: 1 for a ball beside a gap that was decided, where the change
         /// of rounded ridges is left out. Its derivatives can be wrong by their own size there.
         std::vector<char> besideGap{};
+        /// Of the variational surface: 1 for a ball of whose derivatives a part that counts is of
+        /// ridges that were rounded. How the rounding follows the balls is left out, too.
+        std::vector<char> besideRidge{};
     };
 
     MolecularSurface() = default;

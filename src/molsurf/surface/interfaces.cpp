@@ -262,7 +262,7 @@ public:
         return out;
     }
 
-    Report::Interface::Fit fit(std::size_t a, std::size_t b) const
+    Report::Interface::Fit fit(std::size_t a, std::size_t b)
     {
         const auto side = [&](std::size_t own, std::size_t other) {
             std::vector<Ball> out;
@@ -270,7 +270,7 @@ public:
                 if (f.gap < fitReach) out.push_back(bare_.balls[f.ball]);
             return out;
         };
-        return fitOf(side(a, b), side(b, a), progress_);
+        return fits_.of(side(a, b), side(b, a), progress_);
     }
 
 private:
@@ -307,6 +307,7 @@ private:
     double gap_; // across which balls change each other's surface [Å]
     FacingBalls facing_;
     ChangedAreas changed_;
+    FitMeasure fits_;
     std::vector<std::optional<Areas>> alone_;
 };
 

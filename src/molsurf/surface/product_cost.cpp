@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/product_cost.h"
 
+#include "molsurf/analysis/measures/shape_complementarity.h"
+#include "molsurf/kernel/balls/ball_index.h"
 #include "molsurf/kernel/balls/sampled_union.h"
 #include "molsurf/kernel/grid/leaf_mask.h"
 #include "molsurf/kernel/pipeline/influence.h"
@@ -11,6 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace molsurf
 {
@@ -41,9 +46,9 @@ constexpr double secondsOfTunnels = 1.2e-4, bytesOfTunnels = 4.3e3; // a ball
 constexpr double secondsPerArea = 3e-6, bytesPerArea = 300.0;
 constexpr double secondsPerContact = 3.2e-5, bytesPerContact = 3.0e3;
 constexpr double secondsPerDepth = 2e-5, bytesPerDepth = 900.0;
-// measured: build --interfaces of 4AT1, 10 copies of 1F2N, 12 of 2BUK, and 400 chains of one bead
-constexpr double secondsPerFit = 8e-5, bytesPerFit = 2e3; // a ball
-constexpr double secondsPerGroup = 8e-3;                  // with some ten neighbours
+// measured: build --interfaces of 4AT1, 1AOI, both kinds in closed form, and 400 chains of one bead
+constexpr double secondsPerAlone = 1.5e-5;                          // a ball
+constexpr double secondsPerFacing = 1.2e-4, bytesPerFacing = 1.4e4; // a ball of a pair of groups
 
 // measured: build --remesh of 1CRN and 4AT1 on voxels of 0.5 and 1 Å, 0.12 to 2 Å, and --adapt
 constexpr double secondsPerMeshed = 1.4e-6;                             // voxel of the mesh before
@@ -76,6 +81,58 @@ double areaOf(const BallSet& atoms, const SurfaceSpec& spec)
 Cost perBall(const SurfaceSize& size, double seconds, double bytes)
 {
     return {seconds * size.balls, bytes * size.balls};
+}
+
+/// How many balls face other groups that bury some of their own, each counted for every such group.
+struct Facings {
+    double all = 0.0, ofPair = 0.0; ///< ofPair: of the two groups that have most
+};
+
+/// The groups that a ball faces, and the widths of the gaps to them [Å].
+std::map<std::int32_t, double> facedBy(const BallSet& atoms, std::size_t i, const BallIndex& index)
+{
+    const std::vector<std::int32_t>& groups = atoms.labels->groupOf;
+    const Ball& ball = atoms.balls[i];
+    std::map<std::int32_t, double> gaps;
+    index.forEachNear(
+        ball.center, ball.center, ball.radius + fitReach, [&](const Ball& other, std::int32_t j) {
+            const std::int32_t group = groups[std::size_t(j)];
+            const double gap = (other.center - ball.center).length() - ball.radius - other.radius;
+            if (group < 0 || group == groups[i] || gap >= fitReach) return;
+            double& least = gaps.emplace(group, gap).first->second;
+            least = std::min(least, gap);
+        });
+    return gaps;
+}
+
+/// From a sample of balls.
+Facings facingsOf(const BallSet& atoms, const SurfaceSpec& spec)
+{
+    constexpr std::size_t sampled = 2000;
+    if (!atoms.labels) return {};
+    struct Pair {
+        double faces = 0.0;
+        bool buries = false;
+    };
+    const std::vector<std::int32_t>& groups = atoms.labels->groupOf;
+    const BallIndex index(atoms.balls, {0.5, 0.0, 4.0});
+    const std::size_t step = std::max<std::size_t>(groups.size() / sampled, 1);
+    std::map<std::pair<std::int32_t, std::int32_t>, Pair> pairs;
+    for (std::size_t i = 0; i < groups.size(); i += step) {
+        if (groups[i] < 0) continue;
+        for (const auto& [other, gap] : facedBy(atoms, i, index)) {
+            Pair& pair = pairs[std::minmax(groups[i], other)];
+            pair.faces += double(step);
+            pair.buries = pair.buries || gap < 2.0 * probeOf(spec);
+        }
+    }
+    Facings out;
+    for (const auto& [names, pair] : pairs) {
+        if (!pair.buries) continue;
+        out.all += pair.faces;
+        out.ofPair = std::max(out.ofPair, pair.faces);
+    }
+    return out;
 }
 
 } // namespace
@@ -139,11 +196,11 @@ Cost costOfTunnels(const BallSet&, const SurfaceOptions&, const SurfaceSize& siz
     return perBall(size, secondsOfTunnels, bytesOfTunnels);
 }
 
-Cost costOfInterfaces(const BallSet& atoms, const SurfaceOptions&, const SurfaceSize& size)
+Cost costOfInterfaces(const BallSet& atoms, const SurfaceOptions& options, const SurfaceSize& size)
 {
-    Cost cost = perBall(size, secondsPerFit, bytesPerFit);
-    if (atoms.labels) cost.seconds += secondsPerGroup * double(atoms.labels->groups.size());
-    return cost;
+    const Facings facings = facingsOf(atoms, options);
+    return {secondsPerAlone * size.balls + secondsPerFacing * facings.all,
+            bytesPerFacing * facings.ofPair};
 }
 
 Cost costOfAreas(const BallSet&, const SurfaceOptions&, const SurfaceSize& size)

@@ -26,7 +26,7 @@ void expectOnSurface(const std::vector<Ball>& balls, double probe, double share)
             .totalAreas()
             .sum();
     double area = 0.0;
-    for (const ExcludedPoint& point : excludedPoints(boundary, probe, 30.0, Progress())) {
+    for (const ExcludedPoint& point : ExcludedSampler(probe, 30.0).of(boundary, Progress())) {
         EXPECT_NEAR(point.normal.length(), 1.0, 1e-9);
         ASSERT_NEAR(places.nearest(point.position, probe).distance, probe, 1e-4);
         const Vec3d centre = point.position + probe * point.normal;

@@ -272,6 +272,40 @@ TEST(SmoothForces, KnowWhichBallsLieBesideAGap)
     EXPECT_EQ(gradientsOf(atoms, SurfaceSpec()).besideGap, (std::vector<char>{0, 0, 0, 0}));
 }
 
+// Four balls about ridges that are rounded, and one beyond, whose derivatives follow differences.
+TEST(SmoothForces, KnowWhichBallsLieBesideARidge)
+{
+    const double places[][3] = {{0.0, 0.0, -2.5},
+                                {-3.5, -1.0, -1.0},
+                                {-0.5, -3.0, -4.0},
+                                {2.0, 2.5, 0.5},
+                                {-3.5, -0.5, 1.0}};
+    SurfaceSpec spec;
+    spec.voxel = 0.25;
+    BallSet atoms;
+    for (const auto& x : places)
+        atoms.balls.push_back({Vec3d(x[0], x[1], x[2]), 1.7, int(atoms.balls.size())});
+    const auto found = gradientsOf(atoms, spec);
+    EXPECT_EQ(found.besideRidge, (std::vector<char>{1, 1, 0, 1, 1}));
+    EXPECT_EQ(found.besideGap, (std::vector<char>{0, 0, 0, 0, 0}));
+    constexpr double step = 0.05; // [Å]
+    const auto error = [&](std::size_t ball, int axis) {
+        double area[2];
+        for (const int side : {0, 1}) {
+            BallSet moved = atoms;
+            moved.balls[ball].center[axis] += side ? step : -step;
+            area[side] = made(moved, spec).report.surface.area;
+        }
+        return std::abs(found.area[ball][axis] - (area[1] - area[0]) / (2.0 * step)) /
+               rmsOf(found.area);
+    };
+    EXPECT_LT(error(2, 0), 0.02);
+    EXPECT_LT(error(2, 2), 0.02);
+    EXPECT_GT(std::max(error(0, 0), error(0, 2)), 0.02); // what the mark is for
+    spec.kind = SurfaceKind::SmoothAccessible;           // has no ridges
+    EXPECT_EQ(gradientsOf(atoms, spec).besideRidge, std::vector<char>(5, 0));
+}
+
 // A hole that tension closes stays closed as its ring breathes: the film moves with the atoms.
 TEST(SmoothForces, FollowAHeldGap)
 {

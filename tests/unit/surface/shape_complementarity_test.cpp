@@ -40,7 +40,8 @@ TEST(Fit, OfTwoBallsIsThatOfTheMiddleCircle)
     const double R = 25.0, probe = 1.7, rim = 1.5;
     for (const double gap : {0.2, 1.0}) {
         const double apart = 2.0 * R + gap;
-        const auto fit = fitOf({{Vec3d(0.0), R, 0}}, {{Vec3d(0.0, 0.0, apart), R, 1}}, Progress());
+        const auto fit =
+            FitMeasure().of({{Vec3d(0.0), R, 0}}, {{Vec3d(0.0, 0.0, apart), R, 1}}, Progress());
         const double most = std::acos(0.5 * apart / (R + probe));
         const double trimmed = most - 2.0 * std::asin(0.5 * rim / R);
         const double middle = std::acos(0.5 * (1.0 + std::cos(trimmed)));
@@ -59,11 +60,11 @@ TEST(Fit, OfTwoBallsIsThatOfTheMiddleCircle)
 TEST(Fit, OfWhatHardlyTouchesIsUnknown)
 {
     const Ball one{Vec3d(0.0), 1.7, 0};
-    const auto touching = fitOf({one}, {{Vec3d(0.0, 0.0, 4.0), 1.7, 1}}, Progress());
+    const auto touching = FitMeasure().of({one}, {{Vec3d(0.0, 0.0, 4.0), 1.7, 1}}, Progress());
     EXPECT_TRUE(std::isnan(touching.shape));
     EXPECT_TRUE(std::isnan(touching.distance));
     EXPECT_GT(touching.gapVolume, 1.0);
-    const auto apart = fitOf({one}, {{Vec3d(0.0, 0.0, 30.0), 1.7, 1}}, Progress());
+    const auto apart = FitMeasure().of({one}, {{Vec3d(0.0, 0.0, 30.0), 1.7, 1}}, Progress());
     EXPECT_TRUE(std::isnan(apart.shape));
     EXPECT_TRUE(std::isnan(apart.gapIndex));
     EXPECT_EQ(apart.gapVolume, 0.0);
@@ -84,14 +85,14 @@ TEST(Fit, OfTwoChainsIsTheSameInEveryPose)
             ball.radius = element == 7 ? 1.7 : element == 8 ? 1.5 : 1.9;
         }
     }
-    const auto first = fitOf(chains[0], chains[1], Progress());
+    const auto first = FitMeasure().of(chains[0], chains[1], Progress());
     EXPECT_NEAR(first.shape, 0.774, 0.02);
     const openvdb::math::Quat<double> turn(Vec3d(1.0, 2.0, -0.5).unit(), 1.2);
     for (std::vector<Ball>& balls : chains)
         for (Ball& ball : balls)
             ball.center = turn.rotateVector(ball.center) + Vec3d(3.3, 1.1, 9.7);
     std::reverse(chains[0].begin(), chains[0].end());
-    const auto turned = fitOf(chains[1], chains[0], Progress());
+    const auto turned = FitMeasure().of(chains[1], chains[0], Progress());
     EXPECT_NEAR(turned.shape, first.shape, 0.005);
     EXPECT_NEAR(turned.distance, first.distance, 0.005);
     EXPECT_NEAR(turned.gapVolume, first.gapVolume, 1e-3);

@@ -200,9 +200,11 @@ Table forceTable(const BallSet& atoms, const SurfaceSpec& spec, const Mesh& mesh
     };
     add(found.volume, std::array{"dV_dx_A2", "dV_dy_A2", "dV_dz_A2"});
     add(found.area, std::array{"dA_dx_A", "dA_dy_A", "dA_dz_A"});
-    if (!found.besideGap.empty())
-        table.columns.push_back(
-            {"beside_gap", Counts(found.besideGap.begin(), found.besideGap.end())});
+    const auto addMarks = [&](const std::vector<char>& marks, const char* name) {
+        if (!marks.empty()) table.columns.push_back({name, Counts(marks.begin(), marks.end())});
+    };
+    addMarks(found.besideGap, "beside_gap");
+    addMarks(found.besideRidge, "beside_ridge");
     return table;
 }
 

@@ -25,7 +25,7 @@ std::vector<double> residueAreasOfBalls(const BallSet& atoms, const std::vector<
 /// dA_dz_A.
 /// @param[in] mesh  of the surface, where it has no closed form
 /// @throws Error(ErrorKind::Usage) if the atoms have no names, or are a unit or copies
-/// Of smooth surfaces beside_gap, too: MolecularSurface::Gradients::besideGap.
+/// Of smooth surfaces beside_gap and beside_ridge, too: those of MolecularSurface::Gradients.
 /// @throws Error as surfaceGradients()
 Table forceTable(const BallSet& atoms, const SurfaceSpec& spec, const Mesh& mesh);
 

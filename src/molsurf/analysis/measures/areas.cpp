@@ -94,7 +94,8 @@ MolecularSurface::Gradients surfaceGradients(const BallSet& atoms, const Surface
         throw Error(ErrorKind::Usage, "forces: expected a mesh with normals");
     BallGradients found = isUnion(spec.kind) ? closedGradients(atoms.balls, spec, progress)
                                              : smoothGradients(atoms, spec, mesh, progress);
-    return {std::move(found.volume), std::move(found.area), std::move(found.besideGap)};
+    return {std::move(found.volume), std::move(found.area), std::move(found.besideGap),
+            std::move(found.besideRidge)};
 }
 
 } // namespace molsurf

@@ -2,13 +2,14 @@
 #include "molsurf/analysis/measures/shape_complementarity.h"
 
 #include "molsurf/kernel/balls/ball_index.h"
-#include "molsurf/kernel/balls/excluded_points.h"
+#include "molsurf/kernel/balls/box_tree.h"
 #include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/core/simd.h"
 #include "molsurf/kernel/pipeline/closed_form.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace molsurf
@@ -26,26 +27,19 @@ constexpr double decay = 0.5;     // [1/Å^2]
 constexpr double density = 30.0;  // of points [1/Å^2]: twice theirs, for steadiness
 constexpr double touching = 1e-6; // of a probe that touches a ball [Å]
 constexpr CellSize cells{1.0, fitProbe, 1.0};
-constexpr double rimCell = 1.0, nearCell = 0.5; // where points are sought [Å]
 constexpr std::size_t run = 32; // points that follow each other and share what is near them
-
-/// The balls of a group within fitReach of another one.
-std::vector<Ball> nearOnes(const std::vector<Ball>& balls, const BallIndex& other)
-{
-    std::vector<Ball> near;
-    for (const Ball& ball : balls) {
-        const double reach = ball.radius + fitReach;
-        const auto isNear = [&](const Ball& o) {
-            return (o.center - ball.center).lengthSqr() < (o.radius + reach) * (o.radius + reach);
-        };
-        if (other.anyNear(ball.center, ball.center, reach, isNear)) near.push_back(ball);
-    }
-    return near;
-}
 
 Vec3d probeOf(const ExcludedPoint& point)
 {
     return point.position + fitProbe * point.normal;
+}
+
+/// Calls f(begin, end) for each run of some points.
+template<typename F>
+void forEachRun(std::size_t points, const Progress& progress, const F& f)
+{
+    parallelFor((points + run - 1) / run, progress,
+                [&](std::size_t c) { f(c * run, std::min(points, (c + 1) * run)); });
 }
 
 /// Of each point, whether the probe that touches it runs into a ball.
@@ -53,11 +47,11 @@ std::vector<char> blockedBy(const BallIndex& balls, const ExcludedPoints& points
                             const Progress& progress)
 {
     std::vector<char> blocked(points.size());
-    parallelFor((points.size() + run - 1) / run, progress, [&](std::size_t c) {
-        const std::size_t begin = c * run, end = std::min(points.size(), begin + run);
+    forEachRun(points.size(), progress, [&](std::size_t begin, std::size_t end) {
         openvdb::BBoxd box;
         for (std::size_t i = begin; i < end; ++i) box.expand(probeOf(points[i]));
-        std::vector<Ball> near;
+        thread_local std::vector<Ball> near;
+        near.clear();
         balls.forEachNear(box.min(), box.max(), fitProbe,
                           [&](const Ball& ball, std::int32_t) { near.push_back(ball); });
         for (std::size_t i = begin; i < end; ++i) {
@@ -71,53 +65,115 @@ std::vector<char> blockedBy(const BallIndex& balls, const ExcludedPoints& points
     return blocked;
 }
 
-/// Finds points near others.
-class PointIndex
+/// The square of the distance from a point to a box [Å^2].
+double squareTo(const Box& box, const Vec3d& x)
+{
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        const double d = std::max(std::max(box.low[a] - x[a], x[a] - box.high[a]), 0.0);
+        sum += d * d;
+    }
+    return sum;
+}
+
+/// The coordinates of a run of points, the last one repeated where it has fewer.
+struct Run {
+    double x[run], y[run], z[run];
+};
+
+/// Squares of the distances from a point to those of a run [Å^2].
+/// @return the least
+MOLSURF_KERNEL double squaresTo(const Run& points, double x, double y, double z, double* out)
+{
+    Doubles least = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    for (std::size_t k = 0; k < run; k += doubleLanes) {
+        const Doubles dx = load(points.x + k) - x, dy = load(points.y + k) - y,
+                      dz = load(points.z + k) - z, square = dx * dx + dy * dy + dz * dz;
+        std::memcpy(out + k, &square, sizeof square);
+        least = square < least ? square : least;
+    }
+    return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+}
+
+/// Finds points near others. Those that follow each other should be near each other.
+class PointRuns
 {
 public:
-    /// @param[in] cell  edge of the cells that hold them: a half or more of what is searched [Å]
-    PointIndex(const ExcludedPoints& points, double cell)
-        : points_(points), scale_(1.0 / cell), index_(asBalls(points, scale_), {0, 0, 1})
+    explicit PointRuns(const std::vector<Vec3d>& points)
+        : runs_((points.size() + run - 1) / run), boxes_(boxesOf(points)), tree_(boxes_)
     {
-    }
-
-    bool anyWithin(const Vec3d& x, double reach) const
-    {
-        const Vec3d at = scale_ * x;
-        return index_.anyNear(at, at, scale_ * reach, [&](const Ball& ball) {
-            return (ball.center - at).lengthSqr() < scale_ * scale_ * reach * reach;
-        });
-    }
-
-    /// The nearest; there is one.
-    const ExcludedPoint& nearest(const Vec3d& x) const
-    {
-        const Vec3d at = scale_ * x;
-        for (double reach = 0.5;; reach *= 1.5) {
-            double least = scale_ * scale_ * reach * reach;
-            std::int32_t best = -1;
-            index_.forEachNear(at, at, scale_ * reach, [&](const Ball& ball, std::int32_t i) {
-                const double square = (ball.center - at).lengthSqr();
-                if (square > least || (square == least && i > best)) return;
-                least = square;
-                best = i;
-            });
-            if (best >= 0) return points_[std::size_t(best)];
+        for (std::size_t i = 0; i < runs_.size() * run; ++i) {
+            const Vec3d& x = points[std::min(i, points.size() - 1)];
+            Run& own = runs_[i / run];
+            own.x[i % run] = x.x();
+            own.y[i % run] = x.y();
+            own.z[i % run] = x.z();
         }
     }
 
-private:
-    /// An index has cells of 1 at least.
-    static std::vector<Ball> asBalls(const ExcludedPoints& points, double scale)
+    /// Whether any is nearer to a point than a reach.
+    /// @param[in,out] first  the run to look at first; then the one that has such a point
+    bool anyWithin(const Vec3d& x, double reach, std::size_t& first) const
     {
-        std::vector<Ball> out;
-        for (const ExcludedPoint& point : points) out.push_back({scale * point.position, 0.0, 0});
-        return out;
+        const double square = reach * reach;
+        const auto isIn = [&](std::size_t n) {
+            double unused[run];
+            return squareTo(boxes_[n], x) < square &&
+                   squaresTo(runs_[n], x.x(), x.y(), x.z(), unused) < square;
+        };
+        if (first < runs_.size() && isIn(first)) return true;
+        bool found = false;
+        forEachNear(x, reach, [&](std::size_t n) {
+            if (found || !isIn(n)) return;
+            found = true;
+            first = n;
+        });
+        return found;
     }
 
-    const ExcludedPoints& points_;
-    double scale_;
-    BallIndex index_;
+    /// Finds the nearest point if one is nearer than a reach.
+    /// @param[in] most  square of the reach [Å^2]
+    /// @return its number, or -1
+    std::ptrdiff_t nearest(const Vec3d& x, double most) const
+    {
+        std::ptrdiff_t best = -1;
+        forEachNear(x, std::sqrt(most), [&](std::size_t n) {
+            if (squareTo(boxes_[n], x) > most) return;
+            double squares[run];
+            const double square = squaresTo(runs_[n], x.x(), x.y(), x.z(), squares);
+            if (square >= most) return;
+            most = square;
+            best = std::ptrdiff_t(n * run) + (std::find(squares, squares + run, square) - squares);
+        });
+        return best;
+    }
+
+private:
+    static std::vector<Box> boxesOf(const std::vector<Vec3d>& points)
+    {
+        std::vector<Box> boxes;
+        for (std::size_t begin = 0; begin < points.size(); begin += run) {
+            openvdb::BBoxd box;
+            for (std::size_t i = begin; i < std::min(begin + run, points.size()); ++i)
+                box.expand(points[i]);
+            boxes.push_back({box.min(), box.max()});
+        }
+        return boxes;
+    }
+
+    /// Calls f(n) for the runs that may have a point within a reach, ascending.
+    template<typename F>
+    void forEachNear(const Vec3d& x, double reach, const F& f) const
+    {
+        tree_.forEachNear(Box::about(x, reach), [&](std::size_t g) {
+            const std::size_t end = std::min((g + 1) * BoxTree::group, runs_.size());
+            for (std::size_t n = g * BoxTree::group; n < end; ++n) f(n);
+        });
+    }
+
+    std::vector<Run> runs_;
+    std::vector<Box> boxes_;
+    BoxTree tree_;
 };
 
 /// The part of a surface that the other group buries, with and without its rim.
@@ -126,10 +182,27 @@ struct Side {
     ExcludedPoints trimmed;
 };
 
+/// Buried points, less those within a rim's width of an open one.
+ExcludedPoints withoutRim(const ExcludedPoints& buried, const PointRuns& open,
+                          const Progress& progress)
+{
+    std::vector<char> isInside(buried.size());
+    forEachRun(buried.size(), progress, [&](std::size_t begin, std::size_t end) {
+        std::size_t first = 0;
+        for (std::size_t i = begin; i < end; ++i)
+            isInside[i] = !open.anyWithin(buried[i].position, rimWidth, first);
+    });
+    ExcludedPoints out;
+    for (std::size_t i = 0; i < buried.size(); ++i)
+        if (isInside[i]) out.push_back(buried[i]);
+    return out;
+}
+
 /// Samples the solvent-excluded surface by points, and keeps those that the other group buries.
 /// @param[in] boundary  of the balls of this group near the other one. (A probe that would run into
 ///                      a ball farther away is beyond the rim's width from any buried point.)
-Side sideOf(const BallBoundary& boundary, const BallIndex& other, const Progress& progress)
+Side sideOf(const BallBoundary& boundary, const BallIndex& other, ExcludedSampler& sampler,
+            const Progress& progress)
 {
     // A probe that a ball of radius R blocks is within R + fitProbe of it, its point within
     // fitProbe of the probe, and the points of its rim within rimWidth of that.
@@ -140,17 +213,20 @@ Side sideOf(const BallBoundary& boundary, const BallIndex& other, const Progress
             return (ball.center - centre).lengthSqr() < reach * reach;
         });
     };
-    const ExcludedPoints all = excludedPoints(boundary, fitProbe, density, progress, counts);
+    const ExcludedPoints all = sampler.of(boundary, progress, counts);
     const std::vector<char> blocked = blockedBy(other, all, progress);
-    ExcludedPoints buried, open;
-    for (std::size_t i = 0; i < all.size(); ++i) (blocked[i] ? buried : open).push_back(all[i]);
-    const PointIndex rim(open, rimCell);
+    ExcludedPoints buried;
+    std::vector<Vec3d> open;
     Side side;
-    for (const ExcludedPoint& p : buried) side.buriedArea += p.area;
-    side.trimmed = parallelCollect<ExcludedPoint>(
-        buried.size(), progress, [&](std::size_t i, ExcludedPoints& out) {
-            if (!rim.anyWithin(buried[i].position, rimWidth)) out.push_back(buried[i]);
-        });
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!blocked[i]) {
+            open.push_back(all[i].position);
+            continue;
+        }
+        buried.push_back(all[i]);
+        side.buriedArea += all[i].area;
+    }
+    side.trimmed = withoutRim(buried, PointRuns(open), progress);
     return side;
 }
 
@@ -166,17 +242,41 @@ double medianOf(std::vector<std::pair<double, double>> values)
     return values.back().first;
 }
 
+/// Of each point the number of the nearest among others.
+/// @param[in] others  at least one
+std::vector<std::ptrdiff_t> nearestOf(const ExcludedPoints& points, const ExcludedPoints& others,
+                                      const Progress& progress)
+{
+    std::vector<Vec3d> places;
+    for (const ExcludedPoint& other : others) places.push_back(other.position);
+    const PointRuns runs(places);
+    std::vector<std::ptrdiff_t> nearest(points.size());
+    forEachRun(points.size(), progress, [&](std::size_t begin, std::size_t end) {
+        std::ptrdiff_t best = -1;
+        for (double reach = 0.5; best < 0; reach *= 1.5)
+            best = runs.nearest(points[begin].position, reach * reach);
+        for (std::size_t i = begin; i < end; ++i) { // the nearest to the point before is a bound
+            const Vec3d& x = points[i].position;
+            const double most = (places[std::size_t(best)] - x).lengthSqr();
+            const std::ptrdiff_t nearer = runs.nearest(x, most);
+            nearest[i] = best = nearer < 0 ? best : nearer;
+        }
+    });
+    return nearest;
+}
+
 /// Medians of the value and of the distance of one side's points.
-std::pair<double, double> mediansOf(const ExcludedPoints& points, const PointIndex& others,
+std::pair<double, double> mediansOf(const ExcludedPoints& points, const ExcludedPoints& others,
                                     const Progress& progress)
 {
+    const std::vector<std::ptrdiff_t> nearest = nearestOf(points, others, progress);
     std::vector<std::pair<double, double>> shapes(points.size()), distances(points.size());
-    parallelFor(points.size(), progress, [&](std::size_t i) {
-        const ExcludedPoint &point = points[i], &other = others.nearest(point.position);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const ExcludedPoint &point = points[i], &other = others[std::size_t(nearest[i])];
         const double square = (other.position - point.position).lengthSqr();
         shapes[i] = {-point.normal.dot(other.normal) * std::exp(-decay * square), point.area};
         distances[i] = {std::sqrt(square), point.area};
-    });
+    }
     return {medianOf(std::move(shapes)), medianOf(std::move(distances))};
 }
 
@@ -194,29 +294,27 @@ double volumeOf(const BallBoundary& boundary, const Progress& progress)
 
 } // namespace
 
-Report::Interface::Fit fitOf(const std::vector<Ball>& first, const std::vector<Ball>& second,
-                             const Progress& progress)
+FitMeasure::FitMeasure() : sampler_(fitProbe, density) {}
+
+Report::Interface::Fit FitMeasure::of(const std::vector<Ball>& first,
+                                      const std::vector<Ball>& second, const Progress& progress)
 {
-    const BallIndex firstIndex(first, cells), secondIndex(second, cells);
-    const std::vector<Ball> a = nearOnes(first, secondIndex), b = nearOnes(second, firstIndex);
     Report::Interface::Fit fit;
-    if (a.empty() || b.empty()) return fit;
-    std::vector<Ball> both = a;
-    both.insert(both.end(), b.begin(), b.end());
-    const BallBoundary ofA = ballBoundary(a, fitProbe, progress),
-                       ofB = ballBoundary(b, fitProbe, progress);
+    if (first.empty() || second.empty()) return fit;
+    std::vector<Ball> both = first;
+    both.insert(both.end(), second.begin(), second.end());
+    const BallBoundary ofA = ballBoundary(first, fitProbe, progress),
+                       ofB = ballBoundary(second, fitProbe, progress);
     // The gap is inside the surface of both together, and outside that of each by itself.
     fit.gapVolume = volumeOf(ballBoundary(both, fitProbe, progress), progress) -
                     volumeOf(ofA, progress) - volumeOf(ofB, progress);
-    const Side sideA = sideOf(ofA, secondIndex, progress),
-               sideB = sideOf(ofB, firstIndex, progress);
-    const double area = 0.5 * (sideA.buriedArea + sideB.buriedArea);
+    const Side a = sideOf(ofA, BallIndex(second, cells), sampler_, progress),
+               b = sideOf(ofB, BallIndex(first, cells), sampler_, progress);
+    const double area = 0.5 * (a.buriedArea + b.buriedArea);
     if (area > 0.0) fit.gapIndex = fit.gapVolume / area;
-    if (sideA.trimmed.empty() || sideB.trimmed.empty()) return fit;
-    const auto [shapeA, distanceA] =
-        mediansOf(sideA.trimmed, PointIndex(sideB.trimmed, nearCell), progress);
-    const auto [shapeB, distanceB] =
-        mediansOf(sideB.trimmed, PointIndex(sideA.trimmed, nearCell), progress);
+    if (a.trimmed.empty() || b.trimmed.empty()) return fit;
+    const auto [shapeA, distanceA] = mediansOf(a.trimmed, b.trimmed, progress);
+    const auto [shapeB, distanceB] = mediansOf(b.trimmed, a.trimmed, progress);
     fit.shape = 0.5 * (shapeA + shapeB);
     fit.distance = 0.5 * (distanceA + distanceB);
     return fit;

@@ -5,6 +5,7 @@
 /// How well the surfaces of two groups of atoms fit each other.
 
 #include "molsurf/ball.h"
+#include "molsurf/kernel/balls/excluded_points.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 
@@ -18,15 +19,26 @@ namespace molsurf
 /// its probe.
 constexpr double fitReach = 8.3;
 
-/// Measures the fit of two groups: their solvent-excluded surfaces, each alone, for a probe of 1.7
+/// Measures fits of two groups: their solvent-excluded surfaces, each alone, for a probe of 1.7
 /// Å, where the probe of a point would run into the other group, more than 1.5 Å from where none
 /// does. A point has the value (n.-n') exp(-0.5 d^2), n' being the normal of the other's nearest
 /// such point, d Å away; Sc is the mean of both sides' medians.
 /// @see M. C. Lawrence and P. M. Colman, Shape complementarity at protein/protein interfaces, J.
 ///      Mol. Biol. 234:946-950, 1993, doi:10.1006/jmbi.1993.1648
 ///
-/// @param[in] first, second  every ball finite
-Report::Interface::Fit fitOf(const std::vector<Ball>& first, const std::vector<Ball>& second,
-                             const Progress& progress);
+class FitMeasure
+{
+public:
+    FitMeasure();
+
+    /// One thread at a time.
+    /// @param[in] first, second  every ball finite. Those farther than fitReach from the other side
+    ///                           change nothing but the time.
+    Report::Interface::Fit of(const std::vector<Ball>& first, const std::vector<Ball>& second,
+                              const Progress& progress);
+
+private:
+    ExcludedSampler sampler_;
+};
 
 } // namespace molsurf

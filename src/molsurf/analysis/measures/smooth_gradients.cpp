@@ -201,9 +201,9 @@ struct Interface {
     }
 };
 
-/// The point of the interface along the normal of the surface at one of its points, by two Newton
-/// steps from where the offset expects it.
-Vec3d footOf(const Interface& interface, const Vec3d& point, const Vec3d& normal)
+/// The way from a point of the surface to the interface along the normal, less the offset [Å], by
+/// two Newton steps from where the offset expects it.
+double beyondOffset(const Interface& interface, const Vec3d& point, const Vec3d& normal)
 {
     constexpr int steps = 2;
     constexpr double farthest = 0.3; // from where it is expected [Å]
@@ -214,19 +214,34 @@ Vec3d footOf(const Interface& interface, const Vec3d& point, const Vec3d& normal
         way += (jet.psi - interface.levelOf(jet).v) / slope;
         way = std::clamp(way, -farthest, farthest);
     }
-    return point + (interface.offset + way) * normal;
+    return way;
 }
 
-/// Derivatives of balls from some nodes.
-using Sums = std::map<std::int32_t, std::pair<Vec3d, Vec3d>>;
+/// Derivatives of a ball from some nodes.
+struct Sum {
+    Vec3d volume{0.0}, area{0.0};
+    double roundedVolume = 0.0, roundedArea = 0.0; ///< sizes of what nodes of ridges add
+
+    void operator+=(const Sum& o)
+    {
+        volume += o.volume;
+        area += o.area;
+        roundedVolume += o.roundedVolume;
+        roundedArea += o.roundedArea;
+    }
+};
+using Sums = std::map<std::int32_t, Sum>;
 
 /// Adds what the motion of a node contributes to the derivatives by the balls that have terms at
 /// its foot. Each x_i moves it by `speed` along the normal, and by p tangentially.
 void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t node,
              PointTerms& terms, Sums& sums)
 {
+    constexpr double rounded = 0.005; // a node that lies so far from the offset is of a ridge [Å]
     const Vec3d &point = nodes.points[node], &normal = nodes.normals[node];
-    const Vec3d foot = footOf(interface, point, normal);
+    const double beyond = beyondOffset(interface, point, normal);
+    const Vec3d foot = point + (interface.offset + beyond) * normal;
+    const bool isRounded = interface.offset > 0.0 && std::abs(beyond) > rounded;
     const PsiJet jet = interface.sum.jetWithBumps(foot);
     const bool isKnown = jet.gradient.length() > 1e-3; // else psi does not say where to
     terms.find(interface.sum, foot);
@@ -249,13 +264,17 @@ void addNode(const Interface& interface, const PatchNodes& nodes, std::size_t no
     for (std::size_t i = 0; i < terms.shares.size(); ++i) {
         const Share& s = terms.shares[i];
         const Vec3d speed = speeds[i] + s.p * rest;
-        auto& [volume, area] = sums.try_emplace(s.ball, Vec3d(0.0), Vec3d(0.0)).first->second;
-        const auto add = [&](const Vec3d& by, Vec3d& sum) {
+        const auto motion = [&](const Vec3d& by) {
             const double along = by.dot(normal);
-            sum += along * speed + s.p * (by - along * normal);
+            return along * speed + s.p * (by - along * normal);
         };
-        add(nodes.volume[node], volume);
-        add(nodes.area[node], area);
+        Sum& sum = sums[s.ball];
+        const Vec3d volume = motion(nodes.volume[node]), area = motion(nodes.area[node]);
+        sum.volume += volume;
+        sum.area += area;
+        if (!isRounded) continue;
+        sum.roundedVolume += volume.length();
+        sum.roundedArea += area.length();
     }
 }
 
@@ -271,6 +290,21 @@ std::vector<char> ballsBesideGaps(const GaussianSum& sum, std::size_t balls)
             if (std::exp(exponent - psi) > leastShare) out[std::size_t(ball)] = 1;
         });
     }
+    return out;
+}
+
+/// Marks the balls of whose derivatives nodes of ridges make up a part that counts. A ridge is
+/// rounded, and how the rounding follows the balls is left out.
+std::vector<char> ballsBesideRidges(const std::vector<Sum>& sums)
+{
+    constexpr double counts = 0.005; // of the root mean square of all components
+    Vec3d squares(0.0);              // of volume and area
+    for (const Sum& sum : sums) squares += Vec3d(sum.volume.lengthSqr(), sum.area.lengthSqr(), 0.0);
+    const double least = counts / std::sqrt(3.0 * double(sums.size()));
+    std::vector<char> out;
+    for (const Sum& sum : sums)
+        out.push_back(sum.roundedVolume > least * std::sqrt(squares.x()) ||
+                      sum.roundedArea > least * std::sqrt(squares.y()));
     return out;
 }
 
@@ -306,16 +340,17 @@ BallGradients smoothGradients(const BallSet& atoms, const SurfaceSpec& spec, con
         for (std::size_t n = c * chunk; n < std::min(nodes.points.size(), (c + 1) * chunk); ++n)
             addNode(interface, nodes, n, terms, parts[c]);
     });
-    BallGradients out{std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0)),
-                      std::vector<Vec3d>(atoms.balls.size(), Vec3d(0.0)),
-                      offsetOf(spec) > 0.0 ? ballsBesideGaps(sum, atoms.balls.size())
-                                           : std::vector<char>(atoms.balls.size(), 0)};
-    for (const Sums& part : parts) {
-        for (const auto& [ball, sums] : part) {
-            out.volume[std::size_t(ball)] += sums.first;
-            out.area[std::size_t(ball)] += sums.second;
-        }
+    std::vector<Sum> sums(atoms.balls.size());
+    for (const Sums& part : parts)
+        for (const auto& [ball, added] : part) sums[std::size_t(ball)] += added;
+    BallGradients out;
+    for (const Sum& own : sums) {
+        out.volume.push_back(own.volume);
+        out.area.push_back(own.area);
     }
+    out.besideGap = offsetOf(spec) > 0.0 ? ballsBesideGaps(sum, atoms.balls.size())
+                                         : std::vector<char>(atoms.balls.size(), 0);
+    out.besideRidge = ballsBesideRidges(sums);
     return out;
 }
 

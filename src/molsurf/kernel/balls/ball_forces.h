@@ -19,6 +19,7 @@ struct BallGradients {
     std::vector<openvdb::Vec3d> volume; ///< dV/dx_i [Å^2]
     std::vector<openvdb::Vec3d> area;   ///< dA/dx_i [Å]
     std::vector<char> besideGap{};      ///< MolecularSurface::Gradients::besideGap
+    std::vector<char> besideRidge{};    ///< MolecularSurface::Gradients::besideRidge
 };
 
 /// Of the union of balls. The volume changes by the normal integrated over the patches of a ball.

@@ -118,6 +118,8 @@ std::size_t raysFor(std::size_t balls)
 
 CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std::size_t rays)
 {
+    const double ball = 4.0 / 3.0 * M_PI * radius * radius * radius, n = double(rays);
+    if (caps.size() == 0) return {ball, 0.0};
     const Directions& u = directions();
     double sum = 0.0, squares = 0.0;
     for (std::size_t k = 0; k < rays; k += bundle) {
@@ -131,7 +133,6 @@ CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std:
             squares += cubes * cubes;
         }
     }
-    const double ball = 4.0 / 3.0 * M_PI * radius * radius * radius, n = double(rays);
     const double mean = sum / n;
     return {ball * mean, ball * ball * std::max(squares / n - mean * mean, 0.0) / n};
 }

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace molsurf
@@ -28,39 +27,41 @@ Vec3d spiral(std::size_t k, std::size_t count)
     return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
-/// How many points a sphere has.
-std::size_t countOn(double radius, double density)
+using Spread = ExcludedSampler::Spread;
+
+/// The golden spiral, its directions in the order of a space-filling curve.
+Spread spreadOf(std::size_t count)
 {
-    return std::size_t(std::ceil(4.0 * M_PI * radius * radius * density));
+    std::vector<Ball> ends(count);
+    for (std::size_t k = 0; k < count; ++k) ends[k] = {spiral(k, count), 0.0, 0};
+    Spread out;
+    for (const std::int32_t k : spatialOrder(ends))
+        out.directions.push_back(ends[std::size_t(k)].center);
+    for (std::size_t begin = 0; begin < count; begin += Spread::run) {
+        const std::size_t end = std::min(begin + Spread::run, count);
+        openvdb::BBoxd box;
+        for (std::size_t k = begin; k < end; ++k) box.expand(out.directions[k]);
+        out.runs.push_back({box.getCenter(), 0.5 * box.extents().length(), 0});
+    }
+    return out;
 }
 
-/// Spirals of spheres, a list for each number of points: molecules have few radii.
-class Spirals
-{
-public:
-    Spirals(const BallBoundary& boundary, double probe, double density)
-    {
-        for (const Patch& patch : boundary.patches) {
-            const std::size_t count = countOn(std::max(patch.radius - probe, 0.0), density);
-            std::vector<Vec3d>& directions = ofCount_[count];
-            if (directions.empty())
-                for (std::size_t k = 0; k < count; ++k) directions.push_back(spiral(k, count));
-        }
-    }
-
-    const std::vector<Vec3d>& of(std::size_t count) const { return ofCount_.at(count); }
-
-private:
-    std::map<std::size_t, std::vector<Vec3d>> ofCount_;
-};
-
+/// @param[in] wanted  whether a ball may hold points that are wanted
 void addContact(const BallBoundary& boundary, const Patch& patch, double probe,
-                const std::vector<Vec3d>& directions, ExcludedPoints& out)
+                const Spread& spread, const ExcludedSampler::Counts& wanted, ExcludedPoints& out)
 {
     const double r = patch.radius - probe;
-    const double area = 4.0 * M_PI * r * r / double(directions.size());
-    for (const Vec3d& u : directions)
-        if (!isCovered(boundary, patch, u)) out.push_back({patch.centre + r * u, u, area});
+    const std::size_t count = spread.directions.size();
+    const double area = 4.0 * M_PI * r * r / double(count);
+    for (std::size_t n = 0; n < spread.runs.size(); ++n) {
+        const Ball& about = spread.runs[n];
+        if (!wanted(patch.centre + r * about.center, r * about.radius)) continue;
+        const std::size_t end = std::min((n + 1) * Spread::run, count);
+        for (std::size_t k = n * Spread::run; k < end; ++k) {
+            const Vec3d& u = spread.directions[k];
+            if (!isCovered(boundary, patch, u)) out.push_back({patch.centre + r * u, u, area});
+        }
+    }
 }
 
 void addToric(const BallBoundary& boundary, const Arc& arc, double probe, double density,
@@ -94,11 +95,11 @@ void addToric(const BallBoundary& boundary, const Arc& arc, double probe, double
 class Concave
 {
 public:
-    Concave(const BallBoundary& boundary, double probe, double density)
-        : boundary_(boundary), probe_(probe), centres_(centresOf(boundary), {0.0, 0.0, 2.0})
+    /// @param[in] spread  over the sphere of a probe
+    Concave(const BallBoundary& boundary, double probe, const Spread& spread)
+        : boundary_(boundary), probe_(probe), directions_(spread.directions),
+          centres_(centresOf(boundary), {0.0, 0.0, 2.0})
     {
-        const std::size_t count = countOn(probe, density);
-        for (std::size_t k = 0; k < count; ++k) directions_.push_back(spiral(k, count));
     }
 
     /// Adds the part of the probe at a corner that faces the triangle of its three balls, less what
@@ -147,37 +148,43 @@ private:
 
     const BallBoundary& boundary_;
     double probe_;
+    const std::vector<Vec3d>& directions_;
     BallIndex centres_;
-    std::vector<Vec3d> directions_;
 };
 
 } // namespace
 
-ExcludedPoints excludedPoints(const BallBoundary& boundary, double probe, double density,
-                              const Progress& progress,
-                              const std::function<bool(const Vec3d&, double)>& counts)
+const Spread& ExcludedSampler::spreadOver(double radius)
+{
+    const auto count = std::size_t(std::ceil(4.0 * M_PI * radius * radius * density_));
+    Spread& spread = spreads_[count];
+    if (spread.directions.empty()) spread = spreadOf(count);
+    return spread;
+}
+
+ExcludedPoints ExcludedSampler::of(const BallBoundary& boundary, const Progress& progress,
+                                   const Counts& counts)
 {
     const std::size_t patches = boundary.patches.size(), arcs = boundary.arcs.size();
-    const Concave concave(boundary, probe, density);
-    const Spirals spirals(boundary, probe, density);
-    const auto wanted = [&](const Vec3d& centre, double radius) {
-        return !counts || counts(centre, radius);
-    };
+    std::vector<const Spread*> spreads; // of patches
+    for (const Patch& patch : boundary.patches)
+        spreads.push_back(&spreadOver(std::max(patch.radius - probe_, 0.0)));
+    const Concave concave(boundary, probe_, spreadOver(probe_));
+    const Counts wanted = counts ? counts : [](const Vec3d&, double) { return true; };
     return parallelCollect<ExcludedPoint>(
         patches + arcs + boundary.corners.size(), progress,
         [&](std::size_t i, ExcludedPoints& out) {
             if (i < patches) {
                 const Patch& patch = boundary.patches[i];
-                const double r = std::max(patch.radius - probe, 0.0);
-                if (wanted(patch.centre, r))
-                    addContact(boundary, patch, probe, spirals.of(countOn(r, density)), out);
+                if (wanted(patch.centre, std::max(patch.radius - probe_, 0.0)))
+                    addContact(boundary, patch, probe_, *spreads[i], wanted, out);
             } else if (i < patches + arcs) {
                 const Arc& arc = boundary.arcs[i - patches];
-                if (wanted(arc.centre, arc.radius + probe))
-                    addToric(boundary, arc, probe, density, out);
+                if (wanted(arc.centre, arc.radius + probe_))
+                    addToric(boundary, arc, probe_, density_, out);
             } else {
                 const Corner& corner = boundary.corners[i - patches - arcs];
-                if (wanted(corner.position, probe)) concave.add(corner, out);
+                if (wanted(corner.position, probe_)) concave.add(corner, out);
             }
         });
 }
