@@ -157,9 +157,8 @@ def default_of(row):
 
 def keywords(where):
     """The keywords of a function, as lines."""
-    rows = {name: {**row, "never": False} for name, row in _options.KEYWORDS.items()}
-    lines = [f"{name}: {type_of(row)} = {default_of(row)}," for name, row in rows.items()
-             if not row[{"read": "never", "surface": "of_atoms", "molecule": "chooses_balls"}[where]]]
+    lines = [f"{name}: {type_of(row)} = {default_of(row)}," for name, row in _options.KEYWORDS.items()
+             if where == "read" or row["of"] in _options.TAKEN[where]]
     more = {"groups": _options.GROUPS, **{name: _options.MORE[name] for name in ("threads", "progress")}}
     lines += [f"{name}: {kind} = {preset}," for name, (kind, preset, _) in
               (more if where == "read" else _options.MORE).items()]
