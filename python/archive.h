@@ -211,7 +211,7 @@ MOLSURF_MEMBERS(Placement, v.copies, v.begin, v.numbers, v.instances, v.unit, v.
 MOLSURF_MEMBERS(Group, v.name, v.balls, v.color, v.place)
 MOLSURF_MEMBERS(BallValues, v.name, v.title, v.unit, v.palette, v.low, v.high, v.centre, v.valueOf,
                 v.flat)
-MOLSURF_MEMBERS(SelectOptions::Coloring, v.range, v.palette, v.byResidue, v.flat, v.outward)
+MOLSURF_MEMBERS(Coloring, v.range, v.palette, v.byResidue, v.flat, v.outward)
 MOLSURF_MEMBERS(BallLabels, v.chainOf, v.chains, v.groupOf, v.groups, v.elementOf, v.residueClassOf,
                 v.values, v.warnings, v.chainColors, v.chainPlaces)
 MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.insertionCode,
@@ -220,10 +220,12 @@ MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
 MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
 MOLSURF_MEMBERS(PointCharge, v.position, v.charge, v.radius, v.atom, v.residue, v.chain, v.number)
 MOLSURF_MEMBERS(PointCharges, v.atoms)
-MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.drops, v.placement,
-                v.beads, v.beadAtoms, v.labels, v.names, v.colors, v.pocketAt, v.pore,
-                v.tunnelsFrom, v.coloring, v.radii, v.model, v.membrane, v.charges, v.warnings)
-MOLSURF_MEMBERS(BallSet::PoreWay, v.ends, v.axis)
+MOLSURF_MEMBERS(SelectionRecord, v.drops, v.beads, v.beadAtoms, v.radii, v.model, v.membrane,
+                v.warnings)
+MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.placement, v.labels,
+                v.names, v.charges, v.colors, v.coloring, v.record)
+MOLSURF_MEMBERS(SearchPlaces, v.pocketAt, v.pore, v.tunnelsFrom)
+MOLSURF_MEMBERS(SearchPlaces::PoreWay, v.ends, v.axis)
 MOLSURF_MEMBERS(Attribute<float>, v.name, v.values, v.names)
 MOLSURF_MEMBERS(Attribute<std::int32_t>, v.name, v.values, v.names)
 MOLSURF_MEMBERS(MeshPart, v.name, v.firstTriangle)
@@ -246,7 +248,7 @@ MOLSURF_MEMBERS(Report::Group, v.name, v.atoms, v.area, v.volume, v.color, v.alo
 MOLSURF_MEMBERS(Report::Interface, v.first, v.second, v.area, v.count, v.fit, v.buried)
 MOLSURF_MEMBERS(Report::Pockets::Pocket, v.volume, v.area, v.depth, v.radius, v.centre, v.open,
                 v.mouths, v.rank, v.neighbours, v.lining)
-MOLSURF_MEMBERS(Report::Pockets, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list)
+MOLSURF_MEMBERS(Report::Pockets, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list, v.isChosen)
 MOLSURF_MEMBERS(Report::Pore::Station, v.place, v.normal, v.distance, v.radius, v.isBottleneck,
                 v.lining)
 MOLSURF_MEMBERS(Report::Pore::Way, v.radius, v.place)

@@ -6,6 +6,8 @@
 #include "arrays.h"
 #include "signals.h"
 
+#include <molsurf/molecule/selection/shown_atoms.h>
+
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
@@ -49,6 +51,7 @@ struct Molecule {
     std::string source;                              ///< the name of the file
     std::shared_ptr<const molsurf::Molecule> file{}; ///< null: of a pickle
     GroupWords groups{};
+    SearchPlaces places{}; ///< that read() was asked for
 };
 
 /// A surface, with all that it was made from.
@@ -56,7 +59,9 @@ struct MadeSurface {
     MolecularSurface result;
     std::shared_ptr<BallSet> atoms;
     SurfaceOptions options;
-    std::vector<std::int32_t> atom; ///< of each vertex, its place in `atoms`
+    std::vector<std::int32_t> atom;                  ///< of each vertex, its place in `atoms`
+    std::shared_ptr<const molsurf::Molecule> file{}; ///< of the atoms; null: there is none
+    SelectOptions select{};                          ///< that the atoms were chosen by
     std::shared_ptr<const SurfaceDistance> distance{};
 };
 
@@ -111,6 +116,7 @@ void addErrors(nb::module_& m)
 nb::list describeSettings()
 {
     const char* types[] = {"switch", "whole", "number", "text", "word", "list", "rules"};
+    const char* parts[] = {"balls", "molecule", "surface"};
     nb::list out;
     for (const Setting& row : settingTable()) {
         nb::dict one;
@@ -122,8 +128,7 @@ nb::list describeSettings()
         one["words"] = row.words;
         one["low"] = row.low;
         one["high"] = row.high;
-        one["of_atoms"] = row.ofAtoms;
-        one["chooses_balls"] = row.choosesBalls;
+        one["of"] = parts[std::size_t(row.of)];
         one["default"] = row.get ? nb::cast(row.get(Settings())) : nb::none();
         out.append(one);
     }
@@ -133,8 +138,9 @@ nb::list describeSettings()
 Settings settingsOf(const Given& given, const GroupWords& groups)
 {
     Settings settings = settingsOf(given);
-    for (const auto& [group, select] : groups) settings.atoms.groups.push_back({group, select, {}});
-    if (settings.colorGroups) settings.atoms.groupBy = settings.colorGroups;
+    for (const auto& [group, select] : groups)
+        settings.labels.groups.push_back({group, select, {}});
+    if (settings.colorGroups) settings.labels.groupBy = settings.colorGroups;
     return settings;
 }
 
@@ -143,15 +149,18 @@ Molecule readMolecule(const std::string& name, const std::optional<nb::bytes>& c
 {
     const Settings settings = settingsOf(given, groups);
     checkOptions(settings.atoms);
-    const SelectOptions& atoms = settings.atoms;
+    checkOptions(settings.places);
+    checkOptions(settings.labels);
+    const ReadLimits& limits = settings.atoms.limits;
     FileContent bytes{name, content ? std::string(content->c_str(), content->size()) : ""};
     Molecule out{nullptr, name, nullptr, groups};
     run(how, [&](const Progress& progress) {
         out.file = std::make_shared<const molsurf::Molecule>(
-            content ? molsurf::Molecule(std::move(bytes), progress, atoms.maxInput, atoms.memory)
-                    : molsurf::Molecule(name, progress, atoms.maxInput, atoms.memory));
-        out.atoms =
-            std::make_shared<BallSet>(out.file->balls(atoms, probeOf(settings.options), progress));
+            content ? molsurf::Molecule(std::move(bytes), progress, limits)
+                    : molsurf::Molecule(name, progress, limits));
+        out.atoms = std::make_shared<BallSet>(
+            out.file->balls(settings.atoms, settings.labels, probeOf(settings.options), progress));
+        out.places = out.file->places(settings.places, *out.atoms);
         return 0;
     });
     return out;
@@ -163,32 +172,44 @@ Molecule readMolecule(const std::string& name, const std::optional<nb::bytes>& c
                                                       "one of a pickle, which has no file");
 }
 
-/// The same atoms, where they are now, with other products of them.
+/// The file of atoms, with these where they are now.
+molsurf::Molecule movedTo(const BallSet& now, const molsurf::Molecule& file)
+{
+    std::vector<std::int32_t> atoms;
+    std::vector<Vec3d> places;
+    for (const Ball& ball : now.balls) {
+        atoms.push_back(ball.atom);
+        places.push_back(ball.center);
+    }
+    return file.moved(atoms, places);
+}
+
+/// The same atoms, where they are now, with other labels and places.
 /// @param[in] given  as of read(), with what is asked for
-std::shared_ptr<BallSet> asked(const Molecule& molecule, const Given& given, const How& how)
+std::pair<std::shared_ptr<BallSet>, SearchPlaces> asked(const Molecule& molecule,
+                                                        const Given& given, const How& how)
 {
     if (!molecule.file) failWithoutFile("surface");
     const BallSet& now = *molecule.atoms;
     const Settings settings = settingsOf(given, molecule.groups);
     const double probe = probeOf(settings.options);
     return run(how, [&](const Progress& progress) {
-        auto out = std::make_shared<BallSet>(molecule.file->balls(settings.atoms, probe, progress));
-        std::vector<std::int32_t> atoms;
-        std::vector<Vec3d> places;
+        const auto ballsOf = [&](const molsurf::Molecule& file) {
+            return file.balls(settings.atoms, settings.labels, probe, progress);
+        };
+        auto out = std::make_shared<BallSet>(ballsOf(*molecule.file));
         bool moved = false;
-        for (std::size_t i = 0; i < now.balls.size(); ++i) {
+        for (std::size_t i = 0; i < now.balls.size(); ++i)
             moved |= now.balls[i].center != out->balls[i].center;
-            atoms.push_back(now.balls[i].atom);
-            places.push_back(now.balls[i].center);
-        }
         if (moved && now.placement.copies > 1)
             throw Error(ErrorKind::Usage, "surface: expected copies of an assembly where the file "
                                           "has them, got others [hint: ask read() for it]");
-        if (moved)
-            *out = molecule.file->moved(atoms, places).balls(settings.atoms, probe, progress);
+        const molsurf::Molecule file = moved ? movedTo(now, *molecule.file) : *molecule.file;
+        if (moved) *out = ballsOf(file);
         for (std::size_t i = 0; i < now.balls.size(); ++i)
             out->balls[i].radius = now.balls[i].radius;
-        return out;
+        const SearchPlaces found = file.places(settings.places, *out);
+        return std::pair(out, found);
     });
 }
 
@@ -203,6 +224,25 @@ std::vector<std::int32_t> selected(const Molecule& molecule, const std::string& 
         if (taken.count(std::size_t(molecule.atoms->balls[i].atom)) > 0)
             out.push_back(std::int32_t(i));
     return out;
+}
+
+/// The middle of the atoms that a selection takes, used or not, and the name of their residue.
+nb::tuple placeOf(const MadeSurface& surface, const std::string& selection)
+{
+    if (!surface.file)
+        throw Error(ErrorKind::Usage, "label and ruler: expected places (x, y, z) for a surface "
+                                      "that is not of a molecule of read(), got " +
+                                          selection);
+    const BallSet& now = *surface.atoms;
+    const bool one = now.placement.copies == 1 && now.record.beads == 0;
+    const molsurf::Molecule file = one ? movedTo(now, *surface.file) : *surface.file;
+    const BallSet atoms = file.balls(besideSurface(surface.select, selection));
+    const Vec3d middle = middleOf(atoms);
+    const BallNames::Residue& first = atoms.names->residues[0];
+    const std::string code(first.insertionCode == ' ' ? 0 : 1, first.insertionCode);
+    return nb::make_tuple(nb::make_tuple(middle[0], middle[1], middle[2]),
+                          first.chain + " " + first.name + " " + std::to_string(first.number) +
+                              code);
 }
 
 /// Makes labels of atoms, which count places in the BallSet, those of the file.
@@ -278,8 +318,8 @@ MadeSurface surfaceOf(std::shared_ptr<BallSet> balls, const std::string& source,
     report.version = MOLSURF_VERSION;
     report.input = source;
     report.voxel = options.grid ? options.voxel : 0.0;
-    report.warnings.insert(report.warnings.begin(), out.atoms->warnings.begin(),
-                           out.atoms->warnings.end());
+    report.warnings.insert(report.warnings.begin(), out.atoms->record.warnings.begin(),
+                           out.atoms->record.warnings.end());
     for (std::string& warning : report.warnings) warning = withKeywords(warning);
     report.threads =
         how.threads > 0
@@ -386,13 +426,12 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
     }
     if (name == "pore") {
         if (!result.report.pore)
-            throw Error(ErrorKind::Usage, "table: expected atoms read with `pore`, got none");
+            throw Error(ErrorKind::Usage, "table: expected a surface with `pore`, got none");
         return dictOf(result.report.pore->table(atoms));
     }
     if (name == "tunnels") {
         if (!result.report.tunnels)
-            throw Error(ErrorKind::Usage,
-                        "table: expected atoms read with `tunnelsFrom`, got none");
+            throw Error(ErrorKind::Usage, "table: expected a surface with `tunnelsFrom`, got none");
         return dictOf(result.report.tunnels->table(atoms));
     }
     if (result.contacts.empty())
@@ -441,12 +480,12 @@ nb::bytes bytesOf(const std::string& text)
     return nb::bytes(text.data(), text.size());
 }
 
-nb::bytes pack(const BallSet& atoms, const std::string& source)
+nb::bytes pack(const BallSet& atoms, const std::string& source, const SearchPlaces& places)
 {
     if (atoms.labels && atoms.labels->values && atoms.labels->values->field)
         throw nb::type_error("atoms with the values of a map cannot be pickled");
     Packer packer;
-    packer(std::string(MOLSURF_VERSION), source, atoms);
+    packer(std::string(MOLSURF_VERSION), source, atoms, places);
     return bytesOf(packer.take());
 }
 
@@ -465,7 +504,7 @@ Molecule unpackMolecule(const nb::bytes& bytes)
     unpacker(version);
     checkVersion(version);
     Molecule out{std::make_shared<BallSet>(), ""};
-    unpacker(out.source, *out.atoms);
+    unpacker(out.source, *out.atoms, out.places);
     return out;
 }
 
@@ -475,7 +514,7 @@ nb::bytes packSurface(const MadeSurface& surface)
     const openvdb::GridPtrVec all = result.grids();
     const openvdb::GridCPtrVec grids(all.begin(), all.end());
     Packer packer;
-    const nb::bytes atoms = pack(*surface.atoms, "");
+    const nb::bytes atoms = pack(*surface.atoms, "", {});
     packer(std::string(MOLSURF_VERSION), std::string(atoms.c_str(), atoms.size()), result.mesh,
            result.shared, result.ballAreas, result.ballValues, result.contacts, result.report,
            surface.atom, bool(result.surface), grids.empty() ? std::string() : packGrids(grids));
@@ -578,7 +617,7 @@ void addMolecule(nb::module_& m)
         .def_prop_ro("names", [](const Molecule& v) { return namesOf(*v.atoms); })
         .def_prop_ro("warnings",
                      [](const Molecule& v) {
-                         std::vector<std::string> all = v.atoms->warnings;
+                         std::vector<std::string> all = v.atoms->record.warnings;
                          for (std::string& warning : all) warning = withKeywords(warning);
                          return all;
                      })
@@ -600,15 +639,21 @@ void addMolecule(nb::module_& m)
              [](const Molecule& v, const Given& given, const std::vector<std::string>& extra,
                 const std::string& areasOf, bool again, Listener progress, int threads) {
                  const How how{progress, threads};
-                 auto atoms = again ? asked(v, given, how) : std::make_shared<BallSet>(*v.atoms);
-                 return surfaceOf(std::move(atoms), v.source, optionsOf(given, extra, areasOf),
-                                  how);
+                 SurfaceOptions options = optionsOf(given, extra, areasOf);
+                 auto [atoms, places] =
+                     again ? asked(v, given, how)
+                           : std::pair(std::make_shared<BallSet>(*v.atoms), v.places);
+                 options.places = std::move(places);
+                 MadeSurface made = surfaceOf(std::move(atoms), v.source, options, how);
+                 made.file = v.file;
+                 made.select = settingsOf(given).atoms;
+                 return made;
              })
         .def("select",
              [](const Molecule& v, const std::string& selection) {
                  return owned<std::int32_t>(selected(v, selection));
              })
-        .def("__getstate__", [](const Molecule& v) { return pack(*v.atoms, v.source); })
+        .def("__getstate__", [](const Molecule& v) { return pack(*v.atoms, v.source, v.places); })
         .def("__setstate__",
              [](Molecule& v, const nb::bytes& bytes) { new (&v) Molecule(unpackMolecule(bytes)); });
 }
@@ -682,6 +727,7 @@ void addSurface(nb::module_& m)
              [](MadeSurface& s, Listener progress, int threads) {
                  return gradientsOf(s, {progress, threads});
              })
+        .def("place", placeOf)
         .def("save", save)
         .def("state", packSurface);
 }
@@ -694,7 +740,7 @@ void addFunctions(nb::module_& m)
     m.def("is_of_file", [](const std::string& color) {
         try {
             const Settings s = settingsOf({{"color", {color}}});
-            return s.colorGroups || s.atoms.valueBy || s.atoms.plainColor;
+            return s.colorGroups || s.labels.valueBy || s.labels.plainColor;
         } catch (const Error&) {
             return false;
         }

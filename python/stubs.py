@@ -28,6 +28,8 @@ mdtraj: ModuleType
 Path = Union[str, PathLike[str]]
 MeshLike = Union[Surface, Path, tuple[ArrayLike, ArrayLike]]
 Walls = Literal["all", "outer", "cavities", None]
+Labels = Union[str, Sequence[Union[str, tuple[Union[str, ArrayLike], str]]]]
+Rulers = Sequence[tuple[Union[str, ArrayLike], Union[str, ArrayLike]]]
 Panels = Union[Sequence[Surface], Mapping[str, Union[Surface, str]], None]
 
 class OptionError(ValueError):
@@ -102,7 +104,7 @@ METHODS = '''\
     def to_pyvista(self) -> Any: ...
     def voxels(self) -> Voxels: ...
     def save(self, path: Path, *, replace: bool = True, panels: Panels = None, walls: Walls = None, crisp: bool = False,
-             center: bool = False, print_scale: float | None = None) -> None: ...
+             center: bool = False, print_scale: float | None = None, label: Labels = (), ruler: Rulers = ()) -> None: ...
     def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True, center: bool = False,
                fog_density: float | None = None, labels: Literal["int", "float"] | None = None, one_box: bool = False,
                mips: int | None = None) -> None: ...
@@ -114,7 +116,7 @@ METHODS = '''\
                 style: str | None = None, opacity: float | None = None, all_walls: bool = False, clip: float | None = None,
                 depth_cue: bool = False, legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False,
                 dpi: float | None = None, walls: Walls = None,
-                label: Sequence[tuple[ArrayLike, str]] = (), ruler: Sequence[tuple[ArrayLike, ArrayLike]] = (),
+                label: Labels = (), ruler: Rulers = (),
                 show: Mapping[str, Molecule] | None = None, panels: Panels = None) -> None: ...
 '''
 
@@ -158,9 +160,8 @@ def default_of(row):
 
 def keywords(where):
     """The keywords of a function, as lines."""
-    rows = {name: {**row, "never": False} for name, row in _options.KEYWORDS.items()}
-    lines = [f"{name}: {type_of(row)} = {default_of(row)}," for name, row in rows.items()
-             if not row[{"read": "never", "surface": "of_atoms", "molecule": "chooses_balls"}[where]]]
+    lines = [f"{name}: {type_of(row)} = {default_of(row)}," for name, row in _options.KEYWORDS.items()
+             if where == "read" or row["of"] in _options.TAKEN[where]]
     more = {"groups": _options.GROUPS, **{name: _options.MORE[name] for name in ("threads", "progress")}}
     lines += [f"{name}: {kind} = {preset}," for name, (kind, preset, _) in
               (more if where == "read" else _options.MORE).items()]

@@ -65,7 +65,7 @@ std::vector<Task> tasksOf(const CommandLine& call)
 {
     std::vector<Task> tasks;
     std::map<std::string, std::string> taken; // by stem
-    for (const std::string& input : readStructureList(call.input, call.atoms.maxInput)) {
+    for (const std::string& input : readStructureList(call.input, call.atoms.limits.maxInput)) {
         const std::string stem = inputStem(input);
         const auto [other, fresh] = taken.emplace(stem, input);
         if (stem.empty() || !fresh) failTwice(call, input, other->second, stem + ".*");
@@ -95,7 +95,7 @@ BatchEntry beginEntry(const CommandLine& call, const Task& task)
     entry.name = task.name;
     entry.input = task.input;
     entry.status = "begun";
-    entry.sha256 = sha256OfInput(task.input, call.atoms.maxInput);
+    entry.sha256 = sha256OfInput(task.input, call.atoms.limits.maxInput);
     return entry;
 }
 

@@ -76,7 +76,7 @@ void completeReport(const CommandLine& call, const BallSet& balls, const Report&
 
 bool seesBehind(const CommandLine& call)
 {
-    const bool showsBodies = call.showsPockets() || !call.atoms.tunnelsFrom.empty();
+    const bool showsBodies = call.showsPockets() || !call.places.tunnelsFrom.empty();
     const bool throughBodies = showsBodies && !call.shows.empty();
     return throughBodies || (call.picture.opacity < 1.0 && (call.picture.allWalls || showsBodies));
 }
@@ -301,9 +301,10 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     }
     call.options.meshLabels = call.writes(Triangles | PlainColor);
     call.options.energy = call.writes(Numbers);
+    call.options.pocketBodies = wantsBodies(call);
     MolecularSurface result;
     try {
-        result = makeUnitSurface(balls, withBodies(call), &terminal);
+        result = makeUnitSurface(balls, call.options, &terminal);
     } catch (const Cancelled&) {
         terminal.failIfOverdue(" [hint: a larger --voxel or --max-hours, or fewer --max-steps]");
         throw;
@@ -316,9 +317,9 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
         result.report.warnings.push_back("interfaces: all atoms are of one group [hint: --groups "
                                          "FILE names parts of them]");
     const auto& pockets = result.report.pockets;
-    if (pockets && pockets->list.empty() && !balls.pocketAt.empty() && call.frames.empty())
+    if (pockets && pockets->list.empty() && pockets->isChosen && call.frames.empty())
         throw Error(ErrorKind::Input,
-                    "--pocket-at " + call.atoms.pocketAt +
+                    "--pocket-at " + call.places.pocketAt +
                         ": no pocket is within 4 Å of these atoms [hint: --pocket-cut 0 finds "
                         "shallow ones, too]");
     keepWalls(call.walls, terminal, result.mesh); // the report and the .vdb have all
@@ -334,7 +335,7 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
     for (const auto& grid : result.grids()) grid->setCreator(creator);
 
-    const auto bodies = std::make_shared<Mesh>(takeBodies(call, terminal, result));
+    const auto bodies = std::make_shared<Mesh>(std::move(result.pocketBodies));
     if (call.writes(Numbered)) numberOutputs(result.report.pockets->list.size(), call);
     const auto drawn =
         std::make_shared<Bodies>(drawnBodies(call, balls, *bodies, result, terminal));

@@ -117,7 +117,7 @@ void checkBricks(const CommandLine& call, const PlannedBrick& whole)
 
 bool goesInBricks(const CommandLine& call)
 {
-    if (call.verb != Build || call.atoms.repeats() || !call.frames.empty()) return false;
+    if (call.verb != Build || call.atoms.assembly.repeats() || !call.frames.empty()) return false;
     try {
         checkWay(InBricks, call.options);
         checkOutputs(call);

@@ -93,13 +93,14 @@ Read readOne(const CommandLine& call, const std::string& path, Terminal& termina
         const auto bytes = std::filesystem::file_size(path, none);
         const bool flat = lowered(std::filesystem::path(path).extension().string()) == ".ply";
         if (!costs(costOfMesh(none ? 0 : bytes, flat))) return read;
-        Mesh mesh = readMesh(path, call.atoms.maxInput);
+        Mesh mesh = readMesh(path, call.atoms.limits.maxInput);
         stopIfAsked();
         read.operand = operandOf(std::move(mesh), terminal);
     } else {
         CommandLine own = call;
         if (first) own.anchors = first->anchors;
-        const auto [selection, description, anchors, motion] = readBalls(path, own, terminal);
+        const auto [selection, places, description, anchors, motion] =
+            readBalls(path, own, terminal);
         said.push_back(description);
         read.anchors = anchors;
         read.superposition = motion;
@@ -111,7 +112,8 @@ Read readOne(const CommandLine& call, const std::string& path, Terminal& termina
         read.converged = !result.report.evolution || result.report.evolution->converged;
         read.operand = operandOf(std::move(result));
         auto& warnings = read.operand.warnings;
-        warnings.insert(warnings.begin(), selection.warnings.begin(), selection.warnings.end());
+        warnings.insert(warnings.begin(), selection.record.warnings.begin(),
+                        selection.record.warnings.end());
     }
     for (std::string& warning : read.operand.warnings) warning = path + ": " + warning;
     return read;
@@ -276,7 +278,7 @@ int compareFiles(const CommandLine& call, Clock::time_point start, Terminal& ter
     lap("search tree");
     report.distances = molsurf::compare(a.operand, toA, b.operand, toB, terminal);
     lap("distance");
-    chooseColors(call.colorBySign, call.colorRange, call.atoms.coloring.palette, report);
+    chooseColors(call.colorBySign, call.colorRange, call.labels.coloring.palette, report);
     report.version = MOLSURF_VERSION;
     report.command = call.command;
     report.a = described(a);

@@ -27,7 +27,7 @@ namespace
 StoredSurface restore(const CommandLine& call, const VdbFile& file, Terminal& terminal)
 {
     try {
-        return storedSurface(file.grids, file.metadata, call.options, call.atoms.coloring,
+        return storedSurface(file.grids, file.metadata, call.options, call.labels.coloring,
                              terminal);
     } catch (const Cancelled&) {
         terminal.failIfOverdue(" [hint: a surface of a larger --voxel, or a larger --max-hours]");
@@ -86,7 +86,7 @@ int convertMap(const CommandLine& call, std::size_t points, Terminal& terminal)
         return 0;
     }
     checkCost(cost, limitsOf(call));
-    const ScalarMap map = readMap(call.input, call.atoms.maxInput);
+    const ScalarMap map = readMap(call.input, call.atoms.limits.maxInput);
     stopIfAsked();
     const openvdb::FloatGrid::Ptr grid = call.iso ? levelSetOf(map, *call.iso) : fogOf(map);
     openvdb::MetaMap metadata;

@@ -110,10 +110,9 @@ void takeRange(const std::optional<std::array<double, 2>>& range, BallSet& atoms
 namespace
 {
 
-/// The call without what pictures do not show, and without atoms that the first structure has.
-CommandLine panelCall(CommandLine call)
+/// The options of what pictures show.
+SurfaceOptions shownOptions(const SurfaceOptions& asked)
 {
-    const Products asked = call.options;
     Products shown;
     shown.energy = shown.closedForm = false;
     shown.meshLabels = asked.meshLabels;
@@ -125,13 +124,7 @@ CommandLine panelCall(CommandLine call)
     shown.surfaceOf = asked.surfaceOf;
     std::copy_if(asked.fields.begin(), asked.fields.end(), std::back_inserter(shown.fields),
                  [](const auto& field) { return findCurvatureField(field); }); // of vertices
-    static_cast<Products&>(call.options) = shown;
-    call.atoms.pore.clear();
-    call.atoms.tunnelsFrom.clear();
-    call.atoms.pocketAt.clear();
-    call.atoms.model = 0;
-    call.viewed.clear(); // the first structure says where the eye is
-    return call;
+    return {asked, shown};
 }
 
 /// The atoms of a panel, read or `first`, and its view; its surface is made later.
@@ -148,12 +141,12 @@ PanelSurface readPanel(const CommandLine& call, const Panel& what, const BallSet
     if (what.kind) return panel;
     panel.picture.model.reset();
     panel.picture.notes.clear();
-    auto [balls, description, anchors, motion] =
-        readBalls(what.file, panelCall(call), terminal, &panel.picture, true);
+    auto [balls, places, description, anchors, motion] =
+        readBalls(what.file, call, terminal, &panel.picture, true);
     terminal.erase();
     if (!call.quiet) {
         printLine(description);
-        for (const std::string& warning : balls.warnings)
+        for (const std::string& warning : balls.record.warnings)
             printLine("warning: " + what.file + ": " + warning);
     }
     panel.atoms = std::move(balls);
@@ -164,8 +157,8 @@ PanelSurface makePanel(const CommandLine& call, const Panel& what, const BallSet
                        const std::optional<std::array<double, 2>>& range, Terminal& terminal)
 {
     PanelSurface panel = readPanel(call, what, first, terminal);
-    CommandLine other = panelCall(call);
-    other.options = panelOptions(other.options, what);
+    CommandLine other = call;
+    other.options = panelOptions(shownOptions(call.options), what);
     takeRange(range, panel.atoms);
     checkCost(panel.atoms, other.options, limitsOf(call), terminal);
     MolecularSurface result = makeUnitSurface(panel.atoms, other.options, &terminal);

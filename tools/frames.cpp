@@ -14,6 +14,7 @@
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/selection/shown_atoms.h"
 #include "molsurf/show/io/frame_table.h"
 #include "molsurf/show/io/read_vdb.h"
 #include "molsurf/show/io/temporary_file.h"
@@ -40,14 +41,14 @@ namespace
 
 /// Products that a frame may not have.
 struct Passing {
-    const char *option, *table; ///< with the errors, and the files, that are of it
-    const char* text;           ///< "no pore"
-    void (*drop)(BallSet&);     ///< asks for it no more
+    const char *option, *table;  ///< with the errors, and the files, that are of it
+    const char* text;            ///< "no pore"
+    void (*drop)(SearchPlaces&); ///< asks for it no more
 };
 constexpr std::array<Passing, 2> passings = {
-    {{"`pore`: ", "pore", "no pore", [](BallSet& balls) { balls.pore.reset(); }},
+    {{"`pore`: ", "pore", "no pore", [](SearchPlaces& places) { places.pore.reset(); }},
      {"`tunnelsFrom`: ", "tunnels", "no tunnels",
-      [](BallSet& balls) { balls.tunnelsFrom.reset(); }}}};
+      [](SearchPlaces& places) { places.tunnelsFrom.reset(); }}}};
 
 /// Whether a file is the table of tunnels over all frames.
 bool ofTracks(const Output& output)
@@ -241,20 +242,20 @@ class FrameRun
 {
 public:
     FrameRun(const CommandLine& asked, Terminal& terminal)
-        : call_(asked), terminal_(terminal), source_(call_.input, call_.trajectory, call_.frames,
-                                                     call_.atoms, probeOf(call_.options), terminal),
+        : call_(asked), terminal_(terminal),
+          source_(call_.input, call_.trajectory, call_.frames, call_, terminal),
           moves_(hasField(call_.options.fields, "v")), tableName_(tableOf(call_)), share_(call_)
     {
         if (call_.updateSelections) source_.update();
-        if (!call_.superpose.empty()) source_.superpose(anchorRule());
+        if (!call_.superpose.empty()) source_.superpose({call_.superpose, call_.atoms.select});
         if (share_.isAsked() && call_.options.grid && !hasField(call_.options.fields, "pocket_id"))
             call_.options.fields.push_back("pocket_id");
-        for (const ShowRule& rule : call_.shows) shown_.push_back(pictured(rule.select));
+        for (const ShowRule& rule : call_.shows) shown_.push_back(choose(rule.select));
         for (const NoteText& note : call_.notes)
             for (const std::string& place : note.places)
-                if (!placeIn(place)) noted_.push_back(pictured(place));
+                if (!placeIn(place)) noted_.push_back(choose(place));
         if (!call_.viewed.empty())
-            lookAt(call_, pictured(call_.viewed)->balls(0), source_.balls(0), call_.picture);
+            lookAt(call_, source_.balls(0, choose(call_.viewed)), source_.balls(0), call_.picture);
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
         if (call_.writes(Views) && !call_.picture.frame) keepOneView();
         options_ = optionsDigest(call_);
@@ -293,7 +294,7 @@ public:
         printLine(source_.description());
         const BallSet& first = source_.balls(0);
         std::vector<std::string> warnings = call_.warnings;
-        warnings.insert(warnings.end(), first.warnings.begin(), first.warnings.end());
+        warnings.insert(warnings.end(), first.record.warnings.begin(), first.record.warnings.end());
         const bool parts = call_.options.ofParts();
         if (moves_ && parts) warnings.push_back("no grid v: groups have surfaces of their own");
         for (const std::string& warning : warnings) printLine("warning: " + warning);
@@ -354,33 +355,24 @@ private:
     bool isOfAllFrames() const
     {
         return !areas_.empty() || !films_.empty() || share_.isAsked() ||
-               !call_.atoms.tunnelsFrom.empty(); // whose numbers follow from the frames before
+               !call_.places.tunnelsFrom.empty(); // whose numbers follow from the frames before
     }
 
     /// The number in the names of the files of frame i.
     std::size_t fileOf(std::size_t i) const { return std::size_t(call_.firstFrame) + i; }
 
-    std::unique_ptr<FrameSource> pictured(const std::string& select)
+    FrameSource::Choice choose(const std::string& select)
     {
-        if (call_.input == "-")
-            usageError(
-                "--frames reads INPUT again for the atoms of pictures, expected a file, got -");
-        auto source = std::make_unique<FrameSource>(call_.input, call_.trajectory, call_.frames,
-                                                    picturedAtoms(call_, select), 0.0, terminal_);
-        if (call_.updateSelections) source->update();
-        if (!call_.superpose.empty()) source->superpose(anchorRule());
-        return source;
+        return source_.choose(besideSurface(call_.atoms, select));
     }
 
-    /// By what frames are laid on the first one, whatever of them a picture shows.
-    AnchorRule anchorRule() const { return {call_.superpose, call_.atoms.select}; }
-
     /// Adds the labels and rulers of frame i.
-    void addNotesOf(std::size_t i, DrawOptions& picture) const
+    void addNotesOf(std::size_t i, DrawOptions& picture)
     {
         std::size_t next = 0;
         addNotes(
-            call_.notes, [&](const std::string&) { return noted_[next++]->balls(i); }, picture);
+            call_.notes, [&](const std::string&) { return source_.balls(i, noted_[next++]); },
+            picture);
     }
 
     /// All frames are seen from one side, in one size.
@@ -402,7 +394,7 @@ private:
                     points.push_back(openvdb::Vec3d(ball.center) - origin);
             };
             add(source_.balls(i));
-            for (const auto& source : shown_) add(source->balls(i));
+            for (const auto choice : shown_) add(source_.balls(i, choice));
             DrawOptions noted;
             addNotesOf(i, noted);
             for (const PictureNote& note : noted.notes)
@@ -421,7 +413,7 @@ private:
 
     /// Drops the pore, or the tunnels, of a frame that has none, with the files that are only of
     /// it.
-    bool goesOnWithout(const Error& error, std::size_t i, BallSet& balls)
+    bool goesOnWithout(const Error& error, std::size_t i)
     {
         const std::string text = error.what();
         const auto passing = std::find_if(passings.begin(), passings.end(), [&](const Passing& p) {
@@ -429,7 +421,7 @@ private:
         });
         if (error.kind() != ErrorKind::Input || passing == passings.end()) return false;
         const auto k = std::size_t(passing - passings.begin());
-        passing->drop(balls);
+        passing->drop(calls_[i].options.places);
         if (closed_[k].empty()) whyClosed_[k] = text.substr(0, text.find(" [")); // without its hint
         closed_[k].push_back(std::to_string(source_.number(i)));
         if (closed_[k].size() == size()) throw error; // none has one
@@ -456,18 +448,19 @@ private:
         std::vector<openvdb::Vec3f> displacement;
         if (moves_) displacement = source_.displacement(i);
         BallSet balls = source_.balls(i);
+        calls_[i].options.places = source_.places(i);
         takeRange(range_, balls);
         std::vector<BallSet> shown;
-        for (const auto& source : shown_) shown.push_back(source->balls(i));
-        showAtoms(call_.shows, std::move(shown), shown_.empty() ? nullptr : shown_[0]->bonds(),
-                  balls, terminal_, calls_[i].picture);
+        for (const auto choice : shown_) shown.push_back(source_.balls(i, choice));
+        showAtoms(call_.shows, std::move(shown), source_.bonds(), balls, terminal_,
+                  calls_[i].picture);
         addNotesOf(i, calls_[i].picture);
         Report read;
         read.warnings = call_.warnings;
         read.seconds = {{"read", secondsSince(start)}};
         const auto extend = [&](MolecularSurface& result) {
             keepOneRange(balls, result);
-            if (!call_.atoms.tunnelsFrom.empty()) {
+            if (!call_.places.tunnelsFrom.empty()) {
                 Report::Tunnels none;
                 auto& tunnels = result.report.tunnels;
                 tracks_.add(balls, source_.number(i), tunnels ? *tunnels : none);
@@ -493,7 +486,7 @@ private:
                 report = surfaceOf(calls_[i], balls, read, terminal_, start, extend, table);
                 isMade = true;
             } catch (const Error& error) {
-                if (!goesOnWithout(error, i, balls)) throw;
+                if (!goesOnWithout(error, i)) throw;
             }
         }
         lastReport_ = report;
@@ -509,8 +502,8 @@ private:
     CommandLine call_;
     Terminal& terminal_;
     FrameSource source_;
-    std::vector<std::unique_ptr<FrameSource>> shown_; // of each --show
-    std::vector<std::unique_ptr<FrameSource>> noted_; // of each selection of --label and --ruler
+    std::vector<FrameSource::Choice> shown_; // of each --show
+    std::vector<FrameSource::Choice> noted_; // of each selection of --label and --ruler
     bool moves_;
     std::string tableName_, options_;
     FrameTable table_;

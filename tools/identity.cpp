@@ -86,7 +86,7 @@ std::optional<int> statusOfExisting(CommandLine& call)
     const bool hashed = std::none_of(read.begin(), read.end(), [](const OptionFile& file) {
         return file.option->stored && readsOnce(file.path);
     });
-    const std::string input = hashed ? sha256OfInput(call.input, call.atoms.maxInput) : "";
+    const std::string input = hashed ? sha256OfInput(call.input, call.atoms.limits.maxInput) : "";
     if (whole && !input.empty() && known->input == input && known->options == identityOf(call))
         return known->converged ? doneStatus : notConvergedStatus;
     call.force = true;

@@ -65,7 +65,7 @@ void beginReport(const CommandLine& call, Report& report)
         if (call.verb & (Build | Batch))
             report.options = call.identity.empty() ? identityOf(call) : call.identity;
         report.inputSha256 = call.inputSha256.empty()
-                                 ? sha256OfInput(call.input, call.atoms.maxInput)
+                                 ? sha256OfInput(call.input, call.atoms.limits.maxInput)
                                  : call.inputSha256;
     }
     report.threads =

@@ -4,6 +4,7 @@
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/molecule/selection/ball_names.h"
+#include "molsurf/molecule/selection/shown_atoms.h"
 #include "molsurf/show/picture/view_file.h"
 
 #include <algorithm>
@@ -11,35 +12,6 @@
 
 namespace molsurf::tool
 {
-
-namespace
-{
-
-openvdb::Vec3d middleOf(const BallSet& atoms)
-{
-    openvdb::Vec3d sum(0.0);
-    for (const Ball& ball : atoms.balls) sum += ball.center;
-    return sum / double(atoms.balls.size());
-}
-
-} // namespace
-
-SelectOptions picturedAtoms(const CommandLine& call, const std::string& select)
-{
-    SelectOptions options;
-    options.select = select;
-    options.model = call.atoms.model;
-    options.assembly = call.atoms.assembly;
-    options.copies = call.atoms.copies;
-    options.altloc = call.atoms.altloc;
-    options.hydrogens = call.atoms.hydrogens;
-    options.waters = call.atoms.waters;
-    options.radii = call.atoms.radii;
-    options.maxInput = call.atoms.maxInput;
-    options.hetero = Hetero::All;
-    options.ions = true;
-    return options;
-}
 
 bool isOfPlaces(const NoteText& note)
 {

@@ -17,10 +17,6 @@
 namespace molsurf::tool
 {
 
-/// How they are chosen: ligands and ions are among them; model, copies and alternate locations are
-/// the surface's.
-SelectOptions picturedAtoms(const CommandLine& call, const std::string& select);
-
 /// Whether a note names no atoms: then it belongs to the first structure of a picture.
 bool isOfPlaces(const NoteText& note);
 

@@ -81,7 +81,7 @@ int plan(CommandLine call)
     InputFiles(call).refuse(atomsFile);
     checkWritable(atomsFile, call.force);
     prepareOutputs(call, {temporaryName(atomsFile)});
-    call.atoms.names = false; // bricks use none
+    call.labels.names = false; // bricks use none
     Terminal terminal(call.progress);
     Report report;
     PlanManifest manifest;

@@ -6,20 +6,14 @@
 
 #include "cli/call.h"
 
-#include "molsurf/surface.h"
+#include <cstddef>
+#include <string>
 
 namespace molsurf::tool
 {
 
 /// Whether files or pictures of a call have them.
 bool wantsBodies(const CommandLine& call);
-
-/// The options with the fields that bodies are made of.
-SurfaceOptions withBodies(const CommandLine& call);
-
-/// Makes the bodies, and drops the fields that were wanted only for them.
-/// @param[in,out] result  by withBodies()
-Mesh takeBodies(const CommandLine& call, const Progress& progress, MolecularSurface& result);
 
 /// Puts a file for each pocket, NAME.pocket1.ply, in the place of NAME.pockets.ply.
 /// @throws Error(ErrorKind::Output) if another output has that name

@@ -5,6 +5,8 @@
 #include "verbs.h"
 
 #include "molsurf/error.h"
+#include "molsurf/molecule/selection/search_places.h"
+#include "molsurf/molecule/selection/shown_atoms.h"
 #include "molsurf/molecule/structure/read_structure.h"
 #include "molsurf/show/color/palette.h"
 #include "molsurf/show/io/read_mesh.h"
@@ -37,7 +39,7 @@ bool isThere(bool partly, const F& f)
 } // namespace
 
 DescribedBalls readBalls(const std::string& path, const CommandLine& call, Terminal& terminal,
-                         DrawOptions* picture, bool partly)
+                         DrawOptions* picture, bool other)
 {
     terminal.update("read", 0.0);
     failIfNoFile(path);
@@ -49,48 +51,52 @@ DescribedBalls readBalls(const std::string& path, const CommandLine& call, Termi
         throw Error(
             ErrorKind::Input,
             path + ": it is a mesh, expected atoms [hint: vdb_molsurf compare measures meshes]");
-    Structure structure = readStructure(path, call.atoms.maxInput, terminal, call.memory);
+    Structure structure = readStructure(path, call.atoms.limits.maxInput, terminal, call.memory);
     stopIfAsked();
+    SelectOptions options = call.atoms;
+    options.limits.memory = call.memory;
+    if (other) options.model = 0;
     std::shared_ptr<const Anchors> anchors;
     std::optional<Superposition> motion;
     if (!call.superpose.empty()) {
         anchors = std::make_shared<Anchors>(
-            anchorsOf(structure, {call.superpose, call.atoms.select}, call.atoms.model));
+            anchorsOf(structure, {call.superpose, options.select}, options.model));
         if (call.anchors) motion = superpositionOf(*anchors, *call.anchors);
         if (motion) moveBy(*motion, structure);
     }
-    SelectOptions options = call.atoms;
-    options.memory = call.memory;
-    BallSet balls = selectBalls(structure, options, probeOf(call.options), terminal);
+    BallSet balls = selectBalls(structure, options, call.labels, probeOf(call.options), terminal);
+    const SearchPlaces places = other ? SearchPlaces() : findPlaces(structure, call.places, balls);
     std::string description = describeSelection(structure, balls);
     if (motion) description += "; " + describe(*motion);
-    if (!picture) return {std::move(balls), std::move(description), anchors, motion};
+    if (!picture) return {std::move(balls), places, std::move(description), anchors, motion};
     const auto chosen = [&](const std::string& select) {
-        return selectBalls(structure, picturedAtoms(call, select), 0.0, terminal);
+        return selectBalls(structure, besideSurface(options, select), {}, 0.0, terminal);
     };
     std::vector<ShowRule> rules;
     std::vector<BallSet> shown;
     for (const ShowRule& rule : call.shows) {
-        const bool there = isThere(partly, [&] { shown.push_back(chosen(rule.select)); });
+        const bool there = isThere(other, [&] { shown.push_back(chosen(rule.select)); });
         if (there) rules.push_back(rule);
     }
     showAtoms(rules, std::move(shown), structure.bonds, balls, terminal, *picture);
     for (const NoteText& note : call.notes)
-        if (!partly || !isOfPlaces(note))
-            isThere(partly, [&] { addNotes({note}, chosen, *picture); });
-    if (!call.viewed.empty()) lookAt(call, chosen(call.viewed), balls, *picture);
-    return {std::move(balls), std::move(description), anchors, motion};
+        if (!other || !isOfPlaces(note))
+            isThere(other, [&] { addNotes({note}, chosen, *picture); });
+    if (!call.viewed.empty() && !other) lookAt(call, chosen(call.viewed), balls, *picture);
+    return {std::move(balls), places, std::move(description), anchors, motion};
 }
 
 BallSet readBalls(CommandLine& call, Terminal& terminal, Report& report)
 {
     const Clock::time_point start = Clock::now();
-    auto [balls, description, anchors, motion] =
+    auto [balls, places, description, anchors, motion] =
         readBalls(call.input, call, terminal, &call.picture);
+    call.options.places = places;
     call.anchors = anchors;
     malloc_trim(0); // what the parser has left is in pieces too small for the fields
     report.warnings = call.warnings;
-    report.warnings.insert(report.warnings.end(), balls.warnings.begin(), balls.warnings.end());
+    report.warnings.insert(report.warnings.end(), balls.record.warnings.begin(),
+                           balls.record.warnings.end());
     report.seconds.emplace_back("read", secondsSince(start));
     terminal.erase();
     if (!call.quiet) {

@@ -54,6 +54,7 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
 /// The balls of a structure file: read_balls.cpp.
 struct DescribedBalls {
     BallSet balls;
+    SearchPlaces places;
     std::string description;                      ///< one line
     std::shared_ptr<const Anchors> anchors{};     ///< of a call with `superpose`
     std::optional<Superposition> superposition{}; ///< how it lies on the anchors of the call
@@ -61,12 +62,13 @@ struct DescribedBalls {
 
 /// Where the call has anchors, the structure is laid on them.
 /// @param[in,out] picture  gets the atoms that it shows and looks at; null: there is none
-/// @param[in]     partly   what the structure lacks of these atoms is left out
+/// @param[in]     other    whether it is another structure than that of the call, which says where
+///                         the eye is; what the structure lacks of these atoms is left out
 DescribedBalls readBalls(const std::string& path, const CommandLine& call, Terminal& terminal,
-                         DrawOptions* picture = nullptr, bool partly = false);
+                         DrawOptions* picture = nullptr, bool other = false);
 
 /// The balls of a call, described on standard error.
-/// @param[in,out] call    gets the atoms of its picture
+/// @param[in,out] call    gets the places of its products, and the atoms of its picture
 /// @param[in,out] report  gets the seconds that it took, and warnings
 BallSet readBalls(CommandLine& call, Terminal& terminal, Report& report);
 

@@ -138,7 +138,7 @@ std::string optionsDigest(const CommandLine& call)
     openvdb::MetaMap map;
     addOptions(call, map);
     std::string all = call.trajectory + "\n" + shortest(call.scene.scale) +
-                      sha256OfInput(call.input, call.atoms.maxInput);
+                      sha256OfInput(call.input, call.atoms.limits.maxInput);
     for (auto meta = map.beginMeta(); meta != map.endMeta(); ++meta)
         if (meta->first.rfind("option.", 0) == 0 && meta->first != "option.model")
             all += "\n" + meta->first + "=" + meta->second->str();

@@ -71,6 +71,27 @@ def test_panels_and_notes_are_those_of_the_command(tmp_path):
     assert (tmp_path / "c.png").read_bytes() != (tmp_path / "a.png").read_bytes()
 
 
+def test_labels_and_rulers_take_selections(tmp_path):
+    molecule = ms.read(DATA / "1crn.pdb", select="A/1-40", voxel=1)
+    made = molecule.surface()
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--select", "A/1-40", "--voxel", "1", "-q", "--label", "resid 5", "--label",
+                    "resid 46=end", "--ruler", "resid 5..9,10,11", "-o", tmp_path / "b.png", "--size", "300"], check=True)
+    notes = {"label": ["resid 5", ("resid 46", "end")], "ruler": [("resid 5", (9, 10, 11))]}
+    made.picture(tmp_path / "a.png", 300, **notes)
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+    made.save(tmp_path / "c.png", label="resid 5")
+    made.save(tmp_path / "d.png")
+    assert (tmp_path / "c.png").read_bytes() != (tmp_path / "d.png").read_bytes()
+    molecule.positions[:] += (30, 0, 0)  # labels go with the atoms
+    middle = molecule.positions[molecule.select("resid 5").indices].mean(axis=0)
+    moved = molecule.surface()
+    moved.picture(tmp_path / "a.png", 300, label="resid 5")
+    moved.picture(tmp_path / "b.png", 300, label=[(middle, "A PRO 5")])
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+    with pytest.raises(ms.OptionError, match="expected places"):
+        ms.surface([(0, 0, 0)], 1.7).picture(tmp_path / "a.png", label="resid 5")
+
+
 def both(tmp_path, name, made, words, **keywords):
     """The bytes of a file by the module and by the command."""
     made.save(tmp_path / f"a{name}", **keywords)
@@ -160,7 +181,8 @@ def test_wrong_panels_and_notes(tmp_path):
                                (ms.OptionError, "`ruler`: expected two places", {"ruler": [((1, 2, 3), (1, 2, 3))]}),
                                (ms.OptionError, "`label`: expected X,Y,Z=TEXT within 1e6", {"label": [((1e7, 2, 3), "far")]}),
                                (TypeError, "panels: expected a list or a dict of surfaces, got Surface", {"panels": made}),
-                               (TypeError, "label: expected a list of pairs of place and text, got str", {"label": "here"}),
+                               (TypeError, "label: expected a list of pairs of place and text, got int", {"label": 5}),
+                               (ms.InputError, "selection .* matches no atom", {"label": "resid 500"}),
                                (TypeError, "ruler: expected a list of pairs of places, got tuple", {"ruler": ((1, 2, 3), (3, 2, 1))}),
                                (TypeError, "show: expected molecules by words of styles, a dict, got str", {"show": "sticks"}),
                                (TypeError, "show: expected molecules by words of styles, a dict, got list", {"show": ["sticks"]}),

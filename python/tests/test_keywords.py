@@ -68,9 +68,9 @@ def hinted(name, of=None):
 
 def test_type_hints_have_the_same_keywords():
     everything = set(_options.KEYWORDS)
-    of_surfaces = {name for name, row in _options.KEYWORDS.items() if not row["of_atoms"]}
+    of_surfaces = {name for name, row in _options.KEYWORDS.items() if row["of"] == "surface"}
     assert set(hinted("surface", "Molecule")) == {
-        name for name, row in _options.KEYWORDS.items() if not row["chooses_balls"]} | set(_options.MORE)
+        name for name, row in _options.KEYWORDS.items() if row["of"] != "balls"} | set(_options.MORE)
     assert set(hinted("surface")) == of_surfaces | set(_options.MORE)
     assert set(hinted("read")) == everything | {"groups", "threads", "progress"}
     assert hinted("read")["voxel"] == "0.5" and hinted("read")["kind"] == "'variational'"
@@ -96,7 +96,7 @@ def test_type_hints_name_what_there_is():
 
 def test_docstrings_tell_every_keyword():
     for name, row in _options.KEYWORDS.items():
-        text = (ms.read if row["of_atoms"] else ms.surface).__doc__
+        text = (ms.read if row["of"] != "surface" else ms.surface).__doc__
         assert f"\n    {name}: " in text, name
     assert "From 0.1 to 100." in ms.surface.__doc__ and "[Å], 0.05 to 10. Default" in ms.surface.__doc__
 

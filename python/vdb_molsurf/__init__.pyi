@@ -16,6 +16,8 @@ mdtraj: ModuleType
 Path = Union[str, PathLike[str]]
 MeshLike = Union[Surface, Path, tuple[ArrayLike, ArrayLike]]
 Walls = Literal["all", "outer", "cavities", None]
+Labels = Union[str, Sequence[Union[str, tuple[Union[str, ArrayLike], str]]]]
+Rulers = Sequence[tuple[Union[str, ArrayLike], Union[str, ArrayLike]]]
 Panels = Union[Sequence[Surface], Mapping[str, Union[Surface, str]], None]
 
 class OptionError(ValueError):
@@ -117,7 +119,7 @@ class Surface:
     def to_pyvista(self) -> Any: ...
     def voxels(self) -> Voxels: ...
     def save(self, path: Path, *, replace: bool = True, panels: Panels = None, walls: Walls = None, crisp: bool = False,
-             center: bool = False, print_scale: float | None = None) -> None: ...
+             center: bool = False, print_scale: float | None = None, label: Labels = (), ruler: Rulers = ()) -> None: ...
     def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True, center: bool = False,
                fog_density: float | None = None) -> None: ...
     def to_apbs(self, folder: Path, *, apbs_grid: Path | None = None, pdie: float = 2.0, sdie: float = 78.54,
@@ -128,7 +130,7 @@ class Surface:
                 style: str | None = None, opacity: float | None = None, all_walls: bool = False, clip: float | None = None,
                 depth_cue: bool = False, legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False,
                 dpi: float | None = None, walls: Walls = None,
-                label: Sequence[tuple[ArrayLike, str]] = (), ruler: Sequence[tuple[ArrayLike, ArrayLike]] = (),
+                label: Labels = (), ruler: Rulers = (),
                 show: Mapping[str, Molecule] | None = None, panels: Panels = None) -> None: ...
 
 class Molecule:

@@ -200,7 +200,7 @@ class Molecule:
         pairs = _options.given(options, "molecule", _options.MORE)
         known = dict(self._given)
         again = any(values != known.get(name) and
-                    (_options.SETTINGS[name]["of_atoms"] or (name == "color" and _core.is_of_file(values[0])))
+                    (_options.SETTINGS[name]["of"] == "molecule" or (name == "color" and _core.is_of_file(values[0])))
                     for name, values in pairs)
         named = {name for name, _ in pairs}
         made = _made([pair for pair in self._given if pair[0] not in named] + pairs, extra, areas_of)

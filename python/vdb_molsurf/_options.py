@@ -68,6 +68,10 @@ def _texts(name, value):
     raise described(name, value)
 
 
+# What the settings change that read(), surface() of balls and Molecule.surface() take.
+TAKEN = {"read": {"balls", "molecule"}, "surface": {"surface"}, "molecule": {"molecule", "surface"}}
+
+
 def given(options, where, more=()):
     """The pairs (setting, values) of keywords.
 
@@ -79,7 +83,7 @@ def given(options, where, more=()):
         if name not in KEYWORDS:
             raise unknown(name, [*KEYWORDS, *more])
         row = KEYWORDS[name]
-        if row["of_atoms"] and (where == "surface" or (where == "molecule" and row["chooses_balls"])):
+        if where != "atoms" and row["of"] not in TAKEN[where]:
             raise TypeError(f"{name}: is for read(), which chooses the atoms")
         texts = _texts(name, value)
         if texts is not None:
@@ -88,7 +92,7 @@ def given(options, where, more=()):
 
 
 # Questions about the atoms, which Molecule.surface() takes and read() will not any more.
-ASKED_LATER = {name for name, row in KEYWORDS.items() if row["of_atoms"] and not row["chooses_balls"]} - {"group_by", "charges"}
+ASKED_LATER = {name for name, row in KEYWORDS.items() if row["of"] == "molecule"} - {"group_by", "charges"}
 
 
 def of_file(color, known):
@@ -113,8 +117,7 @@ def sentence(row):
 def told(where):
     """Name, type, default and text of each keyword of read() or surface()."""
     rows = [(name, TYPES[row["type"]], row["preset"] or "", sentence(row)) for name, row in KEYWORDS.items()
-            if {"read": row["of_atoms"], "surface": not row["of_atoms"], "molecule": not row["chooses_balls"]}[where]
-            or name == "color"]
+            if row["of"] in TAKEN[where] or name == "color"]
     extra = {"groups": GROUPS} if where == "read" else MORE
     return rows + [(name, kind, preset, f"{text[:1].upper()}{text[1:]}.") for name, (kind, preset, text) in extra.items()]
 

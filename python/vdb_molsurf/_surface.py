@@ -133,9 +133,9 @@ def _place(keyword, place):
 
 
 def _pairs(keyword, what, pairs):
-    """Notes of two parts each."""
+    """Notes of two parts each; a text alone is the first."""
     try:
-        return [(first, second) for first, second in pairs]
+        return [(first, second) for first, second in ((one, None) if isinstance(one, str) else one for one in pairs)]
     except (TypeError, ValueError):
         raise TypeError(f"{keyword}: expected a list of pairs of {what}, got {type(pairs).__name__}") from None
 
@@ -408,7 +408,7 @@ class Surface:
         """The voxels of the level set, about three on either side of the surface, and their signed distances."""
         return Voxels(*self._core.voxels())
 
-    def save(self, path, *, replace=True, panels=None, walls=None, crisp=False, center=False, print_scale=None):
+    def save(self, path, *, replace=True, panels=None, walls=None, crisp=False, center=False, print_scale=None, label=(), ruler=()):
         """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json, .png, or .html, a page.
 
         panels: further surfaces of a .png or .html, as of picture().
@@ -416,10 +416,13 @@ class Surface:
         crisp: cuts the triangles of a mesh file where colours meet.
         center: moves the middle of the surface to the origin, in meshes and .vdb.
         print_scale: .stl, .obj, .wrl and .3mf are in mm, at this many mm per Å.
+        label: texts of a .png, as of picture().
+        ruler: lines of a .png, as of picture().
         """
         if panels is not None and not os.fspath(path).endswith((".png", ".html")):
             raise ValueError("panels: expected a path that ends in .png or .html")
-        self._save(path, replace, {"walls": walls, "crisp": crisp, "center": center, "print-scale": print_scale}, panels)
+        self._save(path, replace, {"walls": walls, "crisp": crisp, "center": center, "print-scale": print_scale}, panels,
+                   more=self._notes(label, ruler))
 
     def _save(self, path, replace, options, panels=None, show=None, more=()):
         """Writes a file with options of the command line, those that are not None or False; messages name Python's keywords."""
@@ -485,8 +488,9 @@ class Surface:
         The keywords are the command line's options of pictures. `view` and `up` are directions (x, y, z), toward the
         eye and upward; `view` may be the path of a .view, too. `turn` is in degrees, `clip` in Å. None: the default.
 
-        label: texts at places, as [((x, y, z), "active site")], in Å.
-        ruler: lines between places with their length, as [((x, y, z), (x, y, z))], in Å.
+        label: texts at places in Å or at atoms, as [((x, y, z), "active site"), ("resid 5", "gate")]; a selection alone, as
+        "resid 5", has the name of its first residue.
+        ruler: lines between places or atoms with their length, as [((x, y, z), "resid 5")].
         show: atoms beside the surface, as {"sticks": molecule}, with the words of the command line. Bonds are those of
         dictionaries and distances. Panels of the same molecule show them, too.
         panels: further surfaces in the same scale of length: a list, or a dict by their names, in which "" may have the
@@ -498,10 +502,24 @@ class Surface:
         given = {"size": int(width), "view": view, "up": up, "turn": turn, "background": background, "plain-color": plain_color, "style": style,
                  "opacity": opacity, "all-walls": all_walls, "clip": clip, "depth-cue": depth_cue, "legend": legend,
                  "scale-bar": scale_bar, "dpi": dpi, "walls": walls}
-        notes = [("label", f"{_place('label', place)}={text}") for place, text in _pairs("label", "place and text", label)]
-        notes += [("ruler", f"{_place('ruler', start)}..{_place('ruler', end)}")
-                  for start, end in _pairs("ruler", "places", ruler)]
-        self._save(path, replace, given, panels, show, notes)
+        self._save(path, replace, given, panels, show, self._notes(label, ruler))
+
+    def _at(self, keyword, place):
+        """A place, or the middle of a selection, as it is typed, and what is there."""
+        if not isinstance(place, str):
+            return _place(keyword, place), ""
+        middle, residue = self._core.place(place)
+        return _place(keyword, middle), residue
+
+    def _notes(self, label, ruler):
+        """Labels and rulers as options."""
+        notes = []
+        for place, text in _pairs("label", "place and text", [label] if isinstance(label, str) else label):
+            at, residue = self._at("label", place)
+            notes.append(("label", f"{at}={residue if text is None else text}"))
+        for ends in _pairs("ruler", "places", ruler):
+            notes.append(("ruler", "..".join(self._at("ruler", end)[0] for end in ends)))
+        return notes
 
 
 class Page:

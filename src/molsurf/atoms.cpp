@@ -2,6 +2,7 @@
 #include "molsurf/atoms.h"
 
 #include "molsurf/molecule/selection/match_atoms.h"
+#include "molsurf/molecule/selection/search_places.h"
 #include "molsurf/molecule/selection/select_balls.h"
 #include "molsurf/molecule/structure/read_structure.h"
 
@@ -13,23 +14,30 @@ namespace molsurf
 
 Molecule::Molecule(std::shared_ptr<const Structure> structure) : structure_(std::move(structure)) {}
 
-Molecule::Molecule(const std::string& path, const Progress& progress, std::size_t maxInput,
-                   std::size_t memory)
-    : structure_(std::make_shared<const Structure>(readStructure(path, maxInput, progress, memory)))
-{
-}
-
-Molecule::Molecule(FileContent file, const Progress& progress, std::size_t maxInput,
-                   std::size_t memory)
+Molecule::Molecule(const std::string& path, const Progress& progress, const ReadLimits& limits)
     : structure_(std::make_shared<const Structure>(
-          parseStructure(std::move(file.bytes), file.name, maxInput, progress, memory)))
+          readStructure(path, limits.maxInput, progress, limits.memory)))
 {
 }
 
-BallSet Molecule::balls(const SelectOptions& options, double probe, const Progress& progress) const
+Molecule::Molecule(FileContent file, const Progress& progress, const ReadLimits& limits)
+    : structure_(std::make_shared<const Structure>(parseStructure(
+          std::move(file.bytes), file.name, limits.maxInput, progress, limits.memory)))
+{
+}
+
+BallSet Molecule::balls(const SelectOptions& options, const LabelOptions& labels, double probe,
+                        const Progress& progress) const
 {
     checkOptions(options);
-    return selectBalls(*structure_, options, probe, progress);
+    checkOptions(labels);
+    return selectBalls(*structure_, options, labels, probe, progress);
+}
+
+SearchPlaces Molecule::places(const PlaceOptions& options, BallSet& atoms) const
+{
+    checkOptions(options);
+    return findPlaces(*structure_, options, atoms);
 }
 
 std::vector<std::size_t> Molecule::select(const std::string& selection) const
@@ -59,16 +67,14 @@ BallSet readAtoms(const std::string& path, const SelectOptions& options, double 
                   const Progress& progress)
 {
     checkOptions(options);
-    return Molecule(path, progress, options.maxInput, options.memory)
-        .balls(options, probe, progress);
+    return Molecule(path, progress, options.limits).balls(options, {}, probe, progress);
 }
 
 BallSet readAtoms(FileContent file, const SelectOptions& options, double probe,
                   const Progress& progress)
 {
     checkOptions(options);
-    return Molecule(std::move(file), progress, options.maxInput, options.memory)
-        .balls(options, probe, progress);
+    return Molecule(std::move(file), progress, options.limits).balls(options, {}, probe, progress);
 }
 
 } // namespace molsurf

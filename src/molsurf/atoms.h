@@ -190,28 +190,38 @@ enum class Hetero {
     All    ///< whatever is in the file
 };
 
+/// The assembly that is made of the chains of a file.
+struct AssemblyChoice {
+    std::optional<std::string> name; ///< in the file; none: the atoms stay where they stand there
+    CopyChoice copies{};             ///< the copies to use
+    bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
+                            ///< in the coordinates of the file
+    /// Whether the balls are those of a unit, of which the rotations of the assembly make the
+    /// whole, and those around it, as Placement::unit says. Not beside `instances` and `copies`.
+    bool bySymmetry = false;
+    double surroundings = 20.0; ///< how far around a unit the balls lie [Å], see surroundingsOf()
+
+    /// Tells whether motions repeat the balls that are made.
+    bool repeats() const { return instances || bySymmetry; }
+};
+
+/// Bounds of reading [byte].
+struct ReadLimits {
+    /// Size of a file's text, unpacked; 0: 4 GiB, and no more than 200 times its packed size.
+    std::size_t maxInput = 0;
+    /// Memory of the process while it reads; 0: what the machine, its control group and the process
+    /// may have.
+    std::size_t memory = 0;
+};
+
 /// Options that say which atoms are used and how large they are.
 struct SelectOptions {
-    /// How values and curvatures are shown as colours.
-    struct Coloring {
-        std::optional<std::array<double, 2>> range; ///< values at the ends of the colours; none:
-                                                    ///< most of the values lie between them
-        std::string palette;    ///< "viridis", for example; empty: that of the kind of values
-        bool byResidue = false; ///< whether a residue's atoms have the mean of their values
-        bool flat = false;      ///< whether a point has the value of one atom, and not a blend
-        std::optional<double> outward; ///< how far outside of the surface a potential is taken [Å];
-                                       ///< none: the probe radius, of a surface that is a probe
-                                       ///< radius out itself 0
-    };
-
     /// The atoms to use: in words of PyMOL, VMD and MDAnalysis, as "chain A and resid 10 to 20", or
     /// gemmi selections joined by '|', as "A" or "A/10-20|B"; empty: all. docs/selections.md.
     std::string select;
     int model = 0; ///< number of the model in the file; 0: the one that `select` names, or the
                    ///< first
-    std::optional<std::string> assembly; ///< name of an assembly in the file; none: the atoms stay
-                                         ///< where they stand in the file
-    CopyChoice copies;                   ///< the copies of the assembly to use
+    AssemblyChoice assembly;
     /// The alternate locations to use: those of this label and those without one, or "all"; empty:
     /// those of the highest occupancy.
     std::string altloc;
@@ -227,38 +237,62 @@ struct SelectOptions {
     std::string radii = "bondi";
     std::vector<CoarseRule> coarse;          ///< beads; of two rules for an atom the later one wins
     std::vector<ResolutionRule> resolutions; ///< resolutions; the later rule wins
-    std::vector<GroupRule> groups;           ///< groups; the later rule wins
-    std::optional<GroupBy> groupBy;          ///< makes the groups instead of `groups`
-    std::optional<ValueBy> valueBy;          ///< the values that ColorBy::Value shows
-    Coloring coloring;                       ///< how values and curvatures are shown
-    std::string pocketAt; ///< atoms of the file, used or not, whose pocket is the
-                          ///< only one that is wanted; empty: all are
+    ReadLimits limits;
+};
+
+/// How values and curvatures are shown as colours.
+struct Coloring {
+    std::optional<std::array<double, 2>> range; ///< values at the ends of the colours; none: most
+                                                ///< of the values lie between them
+    std::string palette;           ///< "viridis", for example; empty: that of the kind of values
+    bool byResidue = false;        ///< whether a residue's atoms have the mean of their values
+    bool flat = false;             ///< whether a point has the value of one atom, and not a blend
+    std::optional<double> outward; ///< how far outside of the surface a potential is taken [Å];
+                                   ///< none: the probe radius, of a surface that is a probe radius
+                                   ///< out itself 0
+};
+
+/// Labels, values and colours of balls, which products and files ask for.
+struct LabelOptions {
+    std::vector<GroupRule> groups;  ///< groups; the later rule wins
+    std::optional<GroupBy> groupBy; ///< makes the groups instead of `groups`
+    std::optional<ValueBy> valueBy; ///< the values that ColorBy::Value shows
+    Coloring coloring;              ///< how values and curvatures are shown
+    std::optional<std::array<std::uint8_t, 3>>
+        plainColor;       ///< red, green, blue (sRGB) that all balls get, if it is given
+    bool labels = true;   ///< whether the balls are labelled even if there are neither groups nor
+                          ///< values
+    bool names = true;    ///< whether the balls have names
+    bool charges = false; ///< whether the charges of all atoms come along, those without radius too
+};
+
+/// Where products are searched for, in words. Molecule::places() finds it.
+struct PlaceOptions {
+    std::string pocketAt; ///< atoms of the file, used or not, whose pocket is the only one that is
+                          ///< wanted; empty: all are
     /// The pore that is wanted: "auto", an axis as "z" or "0,0,1", or its ends with " -> " between,
     /// each a point as "1,2,3" or atoms of the file. docs/pores.md. Empty: none.
     std::string pore;
     std::string tunnelsFrom; ///< where tunnels begin: a point as "1,2,3" or atoms of the file, used
                              ///< or not; empty: none are wanted
-    std::optional<std::array<std::uint8_t, 3>>
-        plainColor;         ///< red, green, blue (sRGB) that all balls get, if it is given
-    bool instances = false; ///< whether the balls are those of each prototype of the assembly once,
-                            ///< in the coordinates of the file
-    /// Whether the balls are those of a unit, of which the rotations of the assembly make the
-    /// whole, and those around it, as Placement::unit says. Not beside `instances` and `copies`.
-    bool bySymmetry = false;
-    double surroundings = 20.0; ///< how far around a unit the balls lie [Å], see surroundingsOf()
-    bool labels = true;   ///< whether the balls are labelled even if there are neither groups nor
-                          ///< values
-    bool names = true;    ///< whether the balls have names
-    bool charges = false; ///< whether the charges of all atoms come along, those without radius too
-    /// The bytes that the file's text may have, unpacked; 0: 4 GiB, and no more than 200 times its
-    /// packed size.
-    std::size_t maxInput = 0;
-    /// The bytes that the process may take while it reads; 0: what the machine, its control group
-    /// and the process may have.
-    std::size_t memory = 0;
+};
 
-    /// Tells whether motions repeat the balls that are made.
-    bool repeats() const { return instances || bySymmetry; }
+/// Where products are searched for.
+struct SearchPlaces {
+    /// An end of a pore.
+    struct End {
+        openvdb::Vec3d place; ///< [Å]
+        bool isPoint;         ///< whether it is that point; else somewhere near it
+    };
+    /// The course of a pore.
+    struct PoreWay {
+        std::vector<End> ends{};  ///< two, or none: it leads through the molecule
+        openvdb::Vec3d axis{0.0}; ///< along which it leads then, a unit vector; 0: to be found
+    };
+
+    std::vector<openvdb::Vec3d> pocketAt; ///< atoms whose pocket is wanted [Å]; empty: all are
+    std::optional<PoreWay> pore;          ///< none: no pore is wanted
+    std::optional<End> tunnelsFrom;       ///< where tunnels begin; none: no tunnels are wanted
 };
 
 /// A number of atoms that are left out for one reason.
@@ -325,41 +359,32 @@ struct Placement {
     std::size_t order() const { return unit ? instances.size() : 1; }
 };
 
-/// Balls with their labels, and a record of how they were chosen.
-struct BallSet : BallModel {
-    /// Where a pore is searched for.
-    struct PoreWay {
-        /// An end.
-        struct End {
-            openvdb::Vec3d place; ///< [Å]
-            bool isPoint;         ///< whether it is that point; else somewhere near it
-        };
-        std::vector<End> ends{};  ///< two, or none: it leads through the molecule
-        openvdb::Vec3d axis{0.0}; ///< along which it leads then, a unit vector; 0: to be found
-    };
-
-    std::vector<ResolutionGroup> resolutions; ///< one for each rule, in their order
-    std::vector<std::int32_t> resolutionOf;   ///< index of each ball's rule, or -1; empty if there
-                                              ///< are no rules
-    std::vector<Excluded> drops;      ///< atoms left out of the model, before the assembly is made
-    Placement placement;              ///< how the balls stand for the whole
-    std::size_t beads = 0;            ///< balls that coarse rules made
-    std::size_t beadAtoms = 0;        ///< atoms that these balls stand for
-    std::optional<BallLabels> labels; ///< present unless they were not asked for
-    std::optional<BallNames> names;   ///< the same
-    std::shared_ptr<const PointCharges> charges; ///< of the atoms of the file; null: not asked for
-    std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
-                                                     ///< if the caller chose none
-    std::vector<openvdb::Vec3d> pocketAt;            ///< places of SelectOptions::pocketAt [Å]
-    std::optional<PoreWay> pore;                     ///< as SelectOptions::pore says
-    std::optional<PoreWay::End> tunnelsFrom;         ///< as SelectOptions::tunnelsFrom says
-    SelectOptions::Coloring coloring;                ///< as SelectOptions::coloring
+/// How balls were chosen from a file.
+struct SelectionRecord {
+    std::vector<Excluded> drops; ///< atoms left out of the model, before the assembly is made
+    std::size_t beads = 0;       ///< balls that coarse rules made
+    std::size_t beadAtoms = 0;   ///< atoms that these balls stand for
     std::string radii; ///< the name of the set, or of the file, that the radii are from; empty: the
                        ///< structure's own
     int model = 0;     ///< number of the model that was used
     std::optional<openvdb::Vec3d> membrane; ///< its normal in the file, a unit vector, which is up
                                             ///< in pictures
     std::vector<std::string> warnings;      ///< one line each, as of unknown elements
+};
+
+/// Balls with their labels, and a record of how they were chosen.
+struct BallSet : BallModel {
+    std::vector<ResolutionGroup> resolutions; ///< one for each rule, in their order
+    std::vector<std::int32_t> resolutionOf;   ///< index of each ball's rule, or -1; empty if there
+                                              ///< are no rules
+    Placement placement;                      ///< how the balls stand for the whole
+    std::optional<BallLabels> labels;         ///< present unless they were not asked for
+    std::optional<BallNames> names;           ///< the same
+    std::shared_ptr<const PointCharges> charges; ///< of the atoms of the file; null: not asked for
+    std::vector<std::array<std::uint8_t, 3>> colors; ///< red, green, blue (sRGB), one a ball; empty
+                                                     ///< if the caller chose none
+    Coloring coloring; ///< of values and curvatures, as LabelOptions::coloring
+    SelectionRecord record;
 
     /// Returns the number of balls that the surface is of, which are the first ones: without those
     /// around a unit.
@@ -379,6 +404,8 @@ struct BallSet : BallModel {
 /// Checks the options.
 /// @throws Error(ErrorKind::Usage) if one of them is wrong whatever the file holds
 void checkOptions(const SelectOptions& options);
+void checkOptions(const LabelOptions& options);
+void checkOptions(const PlaceOptions& options);
 
 /// Reads atoms from a file of the format PDB, mmCIF, BinaryCIF, gro, sdf, mol2, PQR, xyzr or xyzrn,
 /// which may be compressed by gzip. The content tells the format; the name does not matter.
@@ -414,17 +441,22 @@ class Molecule
 {
 public:
     /// Reads a file; parameters and errors as of readAtoms().
-    /// @param[in] maxInput,memory  as SelectOptions::maxInput and SelectOptions::memory
     explicit Molecule(const std::string& path, const Progress& progress = Progress(),
-                      std::size_t maxInput = 0, std::size_t memory = 0);
+                      const ReadLimits& limits = {});
 
     /// Reads a file in memory; otherwise as above.
     explicit Molecule(FileContent file, const Progress& progress = Progress(),
-                      std::size_t maxInput = 0, std::size_t memory = 0);
+                      const ReadLimits& limits = {});
 
-    /// Makes balls of atoms, as readAtoms() does.
-    BallSet balls(const SelectOptions& options = {}, double probe = 0.0,
-                  const Progress& progress = Progress()) const;
+    /// Makes balls of atoms, as readAtoms() does, with labels, values and colours.
+    /// @throws Error(ErrorKind::Input) if the file lacks what a label is of
+    BallSet balls(const SelectOptions& options = {}, const LabelOptions& labels = {},
+                  double probe = 0.0, const Progress& progress = Progress()) const;
+
+    /// Finds the places where products are searched for.
+    /// @param[in,out] atoms  balls of the molecule; their record gets warnings
+    /// @throws Error(ErrorKind::Usage) if the words are wrong, or match no atom of the model
+    SearchPlaces places(const PlaceOptions& options, BallSet& atoms) const;
 
     /// Finds the atoms that a selection takes, used or not.
     /// @param[in] selection  as SelectOptions::select; empty: all

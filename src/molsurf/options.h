@@ -4,6 +4,7 @@
 /// @file
 /// The options of a molecular surface with their defaults: its shape (SurfaceSpec) and products.
 
+#include "molsurf/atoms.h"
 #include "molsurf/kernel.h"
 
 #include <optional>
@@ -59,6 +60,8 @@ struct Products : KernelProducts {
     bool contacts = false;             ///< whether MolecularSurface::contacts is made
     bool pockets = false;              ///< whether the report has pockets
     PocketRule pocket;                 ///< which
+    bool pocketBodies = false;         ///< whether MolecularSurface::pocketBodies is made
+    SearchPlaces places;               ///< where pockets, a pore and tunnels are searched for
     double tunnelProbe = 0.9; ///< tunnels are as wide as this at least, in [0.3, 10] [Å]; they
                               ///< end where a ball of PocketRule::probeOut gets
     /// The kind of surface that ballAreas, contacts and interfaces are of; none: that of `kind`.

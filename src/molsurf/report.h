@@ -297,6 +297,7 @@ struct Report {
         double probeIn = 0.0, probeOut = 0.0, cut = 0.0, neck = 0.0; ///< as PocketRule has them
         double voxel = 0.0;       ///< that they are found on [Å]
         std::vector<Pocket> list; ///< the largest first
+        bool isChosen = false;    ///< whether it is only the one at atoms that were asked for
 
         /// A row for every pocket of the list: pocket (its number from 1), volume, area, depth_A,
         /// radius_A (of the largest ball in it), x_A, y_A, z_A (its middle), open (1: a way leads

@@ -23,6 +23,8 @@ namespace molsurf
 /// The options that the rows set.
 struct Settings {
     SelectOptions atoms;
+    LabelOptions labels;
+    PlaceOptions places; ///< Molecule::places() makes those of `options` of them
     SurfaceOptions options;
     std::optional<GroupBy> colorGroups; ///< what has colours that are no ColorBy: those of groups
                                         ///< that are made for them
@@ -42,6 +44,13 @@ enum class SettingType {
     Rules   ///< a text each of several values
 };
 
+/// The part of Settings that a setting changes.
+enum class SettingOf {
+    Balls,    ///< SelectOptions: which atoms are used, or how large their balls are
+    Molecule, ///< LabelOptions and PlaceOptions: questions to the molecule
+    Surface   ///< SurfaceOptions
+};
+
 /// A setting. Its name is that of an option of the command line: "fill-cavities".
 struct Setting {
     const char* name;
@@ -53,9 +62,7 @@ struct Setting {
     std::vector<std::string> words = {}; ///< values that are words, or the beginnings of values
     double low = std::numeric_limits<double>::quiet_NaN();  ///< least and largest number; not a
     double high = std::numeric_limits<double>::quiet_NaN(); ///< number: see the text
-    bool ofAtoms = false;                                   ///< whether readAtoms() needs it
-    bool choosesBalls =
-        false; ///< whether it says which atoms are used, or how large their balls are
+    SettingOf of = SettingOf::Surface;
     std::vector<SurfaceKind> kinds = {}; ///< the surfaces that it changes; empty: all
     /// Sets it; several values are for SettingType::Rules alone, and none is for a switch.
     /// @throws Error(ErrorKind::Usage) for a value that it cannot have

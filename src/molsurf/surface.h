@@ -70,6 +70,9 @@ struct MolecularSurface : LevelSetSurface {
     std::vector<double> ballDepths;
     /// If they were asked for, what contactAreas() gives with the probe of the surface.
     std::vector<ContactArea> contacts;
+    /// If they were asked for, the space of each pocket as a closed part, in the order of the
+    /// report and named as in legends, with normals out of it and the colours of pockets.
+    Mesh pocketBodies;
 };
 
 /// The active voxels of a grid, in the order of its tree. The centre of voxel ijk lies at
@@ -86,7 +89,7 @@ struct Voxels {
 Voxels voxelsOf(const openvdb::FloatGrid& grid);
 
 /// How far around a symmetric unit balls have an influence on its surface, for
-/// SelectOptions::surroundings [Å].
+/// AssemblyChoice::surroundings [Å].
 double surroundingsOf(const SurfaceOptions& options);
 
 /// Makes the surface of balls and uses their resolutions, groups and colours.

@@ -300,9 +300,10 @@ CASES = {
         ("vdb_molsurf info FILE.vdb", f"vdb_molsurf one.xyzr {FAST} -o a.vdb && "
          "sed 's/level set/level sea/g; s/surface/surfeit/g' a.vdb > b.vdb; vdb_molsurf compare b.vdb one.xyzr",
          "vdb_molsurf info b.vdb | grep surfeit")],
-    "molecule/selection/select_balls.cpp": [
+    "molecule/selection/search_places.cpp": [
         ('--select "not resname ATP" leaves them out', f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' {FAST} -o a.json",
-         f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' --select 'not resname ATP' {FAST} -o b.json"),
+         f"vdb_molsurf 4at1.ent.gz --pocket-at 'resname ATP' --select 'not resname ATP' {FAST} -o b.json")],
+    "molecule/selection/select_balls.cpp": [
         ("--waters keeps it", f"vdb_molsurf 1a8o.cif.gz --select water {FAST} -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --select water --waters {FAST} -o a.ply"),
         ("--assembly 1", f"vdb_molsurf moved.pdb --instances {FAST} -o a.glb",

@@ -18,15 +18,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expectErrorAtMost([&] {
         const Structure structure = readStructure(path);
         SelectOptions options;
-        options.labels = true;
+        LabelOptions labels;
+        AssemblyChoice& assembly = options.assembly;
         if (choice & 1 && !structure.assemblies.empty())
-            options.assembly = structure.assemblies.back().name;
-        options.instances = options.assembly && choice & 2;
-        options.bySymmetry = options.assembly && !options.instances && choice & 32;
-        if (choice & 64) options.valueBy = ValueBy{ValueBy::Kind::BFactor};
-        if (choice & 4) options.groupBy = GroupBy{GroupBy::Kind::Entity};
+            assembly.name = structure.assemblies.back().name;
+        assembly.instances = assembly.name && choice & 2;
+        assembly.bySymmetry = assembly.name && !assembly.instances && choice & 32;
+        if (choice & 64) labels.valueBy = ValueBy{ValueBy::Kind::BFactor};
+        if (choice & 4) labels.groupBy = GroupBy{GroupBy::Kind::Entity};
         if (choice & 8) options.coarse = {{"", CoarseRule::Level::Residue, 1}};
-        const BallSet balls = selectBalls(structure, options, 1.4, Progress());
+        const BallSet balls = selectBalls(structure, options, labels, 1.4, Progress());
         describeSelection(structure, balls);
     });
     if (choice & 16) fuzz::expectErrorAtMost([&] { describeStructure(path); });

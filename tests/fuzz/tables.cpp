@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             structure.atoms = {{openvdb::Vec3d(0.0), "CA", 0, 6, '\0', AtomRole::Atom, 1, 0, -1}};
             std::vector<std::string> warnings;
             ballValues(structure, {{openvdb::Vec3f(0.0f), 1.7f, 0}}, {ValueBy::Kind::Table, path},
-                       SelectOptions::Coloring(), {openvdb::Vec3d(0.0), {}}, 0, warnings);
+                       Coloring(), {openvdb::Vec3d(0.0), {}}, 0, warnings);
             break;
         }
         case 'u':

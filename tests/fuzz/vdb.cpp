@@ -18,8 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const VdbFile file = readVdb(path);
         describeVdb(path);
         Progress progress;
-        storedSurface(file.grids, file.metadata, SurfaceOptions(), SelectOptions::Coloring(),
-                      progress);
+        storedSurface(file.grids, file.metadata, SurfaceOptions(), Coloring(), progress);
     });
     return 0;
 }

@@ -19,7 +19,7 @@ inline std::vector<Ball> balls(const std::string& file,
                                const std::optional<std::string>& assembly = {})
 {
     SelectOptions options;
-    options.assembly = assembly;
+    options.assembly.name = assembly;
     return selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/" + file), options).balls;
 }
 

@@ -192,7 +192,7 @@ struct CommandLine : Settings, PictureSettings, FileSettings {
     /// Whether copies of an assembly, which nodes place, have colours.
     bool colorsCopies() const
     {
-        return colorGroups && colorGroups->kind == GroupBy::Kind::Copy && atoms.repeats();
+        return colorGroups && colorGroups->kind == GroupBy::Kind::Copy && atoms.assembly.repeats();
     }
 };
 

@@ -231,7 +231,7 @@ void completeSolver(CommandLine& call)
     if (call.forApbs && !call.writes(Solver) && !call.paths.empty())
         usageError("--for apbs: expected a folder that gets its files [hint: -o run/]");
     if (!call.writes(Solver)) return;
-    call.atoms.charges = true;
+    call.labels.charges = true;
     SurfaceSpec& surface = call.options;
     if (!call.has("surface") && surface.inset == 0.0) surface.kind = SurfaceKind::SolventExcluded;
     for (const std::string& warning : solverWarnings(surface, call.dielectric))
@@ -315,7 +315,7 @@ void warnOfLosses(CommandLine& call)
                 !call.writes(option.shownIn))
                 call.warnings.push_back(std::string("--") + option.name + " is for " +
                                         endingsOf(option.shownIn, call.verb));
-    const bool means = call.options.ballAreas && call.atoms.valueBy; // in tables
+    const bool means = call.options.ballAreas && call.labels.valueBy; // in tables
     if (!call.shows.empty() && call.writes(ColorChoices) && !call.writes(Pixels))
         call.warnings.push_back("--show: atoms are in " + endingsOf(Pixels, call.verb));
     if (call.has("color") && call.options.color != ColorBy::Nothing && !means &&
@@ -353,10 +353,10 @@ void completeFrames(CommandLine& call)
 /// Whether all that is asked for is known in closed form.
 bool asksForNumbers(const CommandLine& call)
 {
-    const std::optional<ValueBy>& value = call.atoms.valueBy;
-    const bool unit = call.atoms.bySymmetry; // a mesh of it says nothing more of the whole
+    const std::optional<ValueBy>& value = call.labels.valueBy;
+    const bool unit = call.atoms.assembly.bySymmetry; // a mesh of it says nothing more of the whole
     // Estimates, bricks and prototypes are of grids; completeAreas() refuses them with areas.
-    const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.instances;
+    const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.assembly.instances;
     const unsigned some =
         Areas | FrameRows | Shares | (ofGrid && call.areas.empty() ? 0u : Numbers);
     return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) &&
@@ -378,15 +378,15 @@ void completeAreas(CommandLine& call)
     }
     call.options.pockets |= call.showsPockets() || call.writes(Shares);
     call.options.grid = !asksForNumbers(call);
-    call.atoms.names = !tables.empty() || call.writes(ColorChoices);
+    call.labels.names = !tables.empty() || call.writes(ColorChoices);
     SurfaceOptions& options = call.options;
     options.interfaces |= tables.count("interfaces") > 0;
-    if (options.interfaces && call.groupsFile.empty() && !call.atoms.groupBy && !call.colorGroups)
-        call.atoms.groupBy = GroupBy{GroupBy::Kind::Chain};
+    if (options.interfaces && call.groupsFile.empty() && !call.labels.groupBy && !call.colorGroups)
+        call.labels.groupBy = GroupBy{GroupBy::Kind::Chain};
     if (tables.empty()) return;
     options.contacts = tables.count("contacts") > 0;
     options.pockets |= tables.count("pockets") > 0;
-    if (tables.count("pore") > 0 && call.atoms.pore.empty()) call.atoms.pore = "auto";
+    if (tables.count("pore") > 0 && call.places.pore.empty()) call.places.pore = "auto";
     for (const char* ofBalls : {"atoms", "residues", "interfaces", "forces"})
         options.ballAreas |= tables.count(ofBalls) > 0;
 }
@@ -395,9 +395,9 @@ void completeGroups(CommandLine& call)
 {
     SurfaceOptions& options = call.options;
     if (!call.groupsFile.empty())
-        call.atoms.groups = readGroups(call.groupsFile, call.atoms.maxInput);
+        call.labels.groups = readGroups(call.groupsFile, call.atoms.limits.maxInput);
     if (call.colorGroups && !call.colorsCopies()) {
-        call.atoms.groupBy = call.colorGroups;
+        call.labels.groupBy = call.colorGroups;
         options.color = ColorBy::Group;
     }
     const bool shown = call.scene.known() && !call.colorsCopies();
@@ -405,12 +405,12 @@ void completeGroups(CommandLine& call)
         options.color = ColorBy::Chain;
     const bool labels = std::any_of(options.fields.begin(), options.fields.end(),
                                     [](auto& field) { return findField(field)->needsLabels; });
-    call.atoms.labels = options.color != ColorBy::Nothing || labels || call.writes(ColorChoices);
+    call.labels.labels = options.color != ColorBy::Nothing || labels || call.writes(ColorChoices);
 }
 
 void completeInstances(CommandLine& call)
 {
-    if (!call.atoms.instances) return;
+    if (!call.atoms.assembly.instances) return;
     for (const Output& output : call.outputs)
         if (!output.holds(Copies))
             call.warnings.push_back(
@@ -429,11 +429,11 @@ void completeLevels(CommandLine& call)
 
 void completeSymmetry(CommandLine& call)
 {
-    if (!call.atoms.bySymmetry) return;
+    if (!call.atoms.assembly.bySymmetry) return;
     checkWay(BySymmetry, call.options);
     SurfaceOptions coarsest = call.options;
     if (!call.lod.empty()) coarsest.voxel = call.lod.back();
-    call.atoms.surroundings = surroundingsOf(coarsest);
+    call.atoms.assembly.surroundings = surroundingsOf(coarsest);
 }
 
 } // namespace
@@ -444,6 +444,8 @@ void completeSurface(CommandLine& call)
     completeGroups(call);
     SurfaceOptions& options = call.options;
     checkOptions(call.atoms);
+    checkOptions(call.places);
+    checkOptions(call.labels);
     checkOptions(options);
     for (const Panel& panel : call.panels) checkOptions(panelOptions(options, panel));
 

@@ -482,7 +482,7 @@ OptionGroup groupOptions()
              [](Option& o) {
                  o.stored = [](const CommandLine& c) {
                      Values all;
-                     for (const GroupRule& group : c.atoms.groups)
+                     for (const GroupRule& group : c.labels.groups)
                          all.push_back(group.name + " " + group.select);
                      return stored(joinWords(all, ", "));
                  };

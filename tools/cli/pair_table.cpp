@@ -45,7 +45,7 @@ std::vector<Pair> assemblyPairs()
     const auto ofGroups = [](const char* what) {
         return Pair{what, Needs, {"groups", "group-by"}, "", [](const CommandLine& call) {
                         const bool later = call.outputs.empty() && !call.dryRun;
-                        return later || call.atoms.groupBy || call.verb == Convert;
+                        return later || call.labels.groupBy || call.verb == Convert;
                     }};
     };
     return {{"weld", Needs, {"by-symmetry"}},
@@ -172,12 +172,12 @@ std::vector<Pair> surfacePairs()
         return Pair{
             option, IsFor, {}, "--color by a value or a curvature", [](const CommandLine& call) {
                 const ColorBy by = call.options.color;
-                return call.verb == Compare || call.atoms.valueBy || kindOf(by).ofCurvature ||
+                return call.verb == Compare || call.labels.valueBy || kindOf(by).ofCurvature ||
                        (call.verb == Convert && by == ColorBy::Nothing);
             }};
     };
     const auto ofAtomValues = [](const CommandLine& call) {
-        return call.atoms.valueBy && !call.atoms.valueBy->byPoint();
+        return call.labels.valueBy && !call.labels.valueBy->byPoint();
     };
     return {{"fog-density", Needs, {"for"}},
             {"match=ses",
@@ -198,7 +198,8 @@ std::vector<Pair> surfacePairs()
              {"color", "show"},
              "",
              [](const CommandLine& call) {
-                 return (call.verb & (Convert | Compare)) != 0 || !call.atoms.tunnelsFrom.empty() ||
+                 return (call.verb & (Convert | Compare)) != 0 ||
+                        !call.places.tunnelsFrom.empty() ||
                         call.options.color != ColorBy::Nothing; // --for chooses colours
              }},
             {"all-walls", IsFor, {"opacity"}},
@@ -213,7 +214,7 @@ std::vector<Pair> surfacePairs()
              "--color in flat colours, as chain or element",
              [](const CommandLine& call) {
                  const bool blended =
-                     call.options.color == ColorBy::Value && !call.atoms.coloring.flat;
+                     call.options.color == ColorBy::Value && !call.labels.coloring.flat;
                  return !blended && kindOf(call.options.color).hasBorders != nullptr;
              }},
             {"crisp",

@@ -226,7 +226,7 @@ void readConfig(const std::string& path, const po::options_description& all, Com
 {
     const auto limit = call.given.find("max-input");
     if (limit != call.given.end()) findOption(call.verb, "max-input")->set(call, limit->second);
-    const std::string content = withoutMark(loadBytes(path, call.atoms.maxInput));
+    const std::string content = withoutMark(loadBytes(path, call.atoms.limits.maxInput));
     constexpr std::size_t longest = std::size_t{1} << 20;
     for (LineReader lines(content); lines.next();)
         if (lines.line().size() > longest)

@@ -165,8 +165,9 @@ VerbInfo infoVerb()
         completeInfo,
         [](const CommandLine& call, auto) {
             for (const std::string& path : call.inputs)
-                std::cout << (isVdbFile(path) ? describeVdb(path)
-                                              : describeStructure(path, call.atoms.maxInput));
+                std::cout << (isVdbFile(path)
+                                  ? describeVdb(path)
+                                  : describeStructure(path, call.atoms.limits.maxInput));
             return 0;
         }};
 }

@@ -92,9 +92,9 @@ void perform(const MsmsCall& call)
     const Structure structure = readSpheres(call);
     SelectOptions all;
     all.waters = true;
-    const BallSet selected = selectBalls(structure, all, call.probe, terminal);
+    const BallSet selected = selectBalls(structure, all, {}, call.probe, terminal);
     const Spheres spheres{structure, selected.balls};
-    for (const auto* list : {&call.warnings, &structure.warnings, &selected.warnings})
+    for (const auto* list : {&call.warnings, &structure.warnings, &selected.record.warnings})
         for (const std::string& warning : *list) printLine("warning: " + warning);
     const PlannedBrick cost = costOf(call, selected, terminal);
     if (call.dryRun) return printLine(tool::costText(cost));

@@ -207,8 +207,8 @@ void perform(const std::string& path)
         readStructureAs(StructureFormat::Xyzrn, config.input, tool::mostSphereBytes);
     SelectOptions all;
     all.waters = true;
-    const BallSet spheres = selectBalls(structure, all, config.probe, terminal);
-    for (const auto* list : {&config.warnings, &structure.warnings, &spheres.warnings})
+    const BallSet spheres = selectBalls(structure, all, {}, config.probe, terminal);
+    for (const auto* list : {&config.warnings, &structure.warnings, &spheres.record.warnings})
         for (const std::string& warning : *list) {
             printLine("warning: " + warning);
             results.warnings += warning + "\n";

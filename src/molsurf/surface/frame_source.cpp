@@ -3,7 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
-#include "molsurf/molecule/selection/match_atoms.h"
+#include "molsurf/molecule/selection/search_places.h"
 #include "molsurf/molecule/selection/select_balls.h"
 #include "molsurf/molecule/structure/read_structure.h"
 #include "molsurf/show/color/palette.h"
@@ -49,16 +49,15 @@ FrameRange parseFrames(const std::string& text)
 }
 
 FrameSource::FrameSource(const std::string& input, const std::string& trajectory,
-                         const std::string& frames, const SelectOptions& atoms, double probe,
-                         const Progress& progress)
-    : input_(input), trajectoryName_(trajectory), atoms_(atoms), probe_(probe), progress_(progress)
+                         const std::string& frames, const Settings& asked, const Progress& progress)
+    : input_(input), trajectoryName_(trajectory), progress_(progress)
 {
     const FrameRange range = parseFrames(frames);
-    structure_ = readStructure(input, atoms.maxInput);
+    structure_ = readStructure(input, asked.atoms.limits.maxInput);
     if (trajectory.empty()) {
         chooseModels(range);
     } else {
-        const int wanted = atoms.model;
+        const int wanted = asked.atoms.model;
         const auto& models = structure_.models;
         const auto model = std::find_if(models.begin(), models.end(), [&](const Model& m) {
             return wanted == 0 || m.number == wanted;
@@ -83,14 +82,42 @@ FrameSource::FrameSource(const std::string& input, const std::string& trajectory
              i += range.step)
             numbers_.push_back(int(i));
     }
-    first_ = load(0);
-    chooseAtoms();
-    if (first_.labels) {
-        BallLabels& labels = *first_.labels;
-        labels.chainColors = chainColors(first_, progress);
-        const std::vector<Color> colors = groupColors(first_, progress);
-        for (std::size_t g = 0; g < colors.size(); ++g) labels.groups[g].color = colors[g];
+    add(asked, probeOf(asked.options));
+}
+
+FrameSource::Choice FrameSource::add(const Settings& asked, double probe)
+{
+    Chosen& chosen = choices_.emplace_back(Chosen{asked, probe, {}});
+    chosen.first = load(0, chosen);
+    std::vector<std::string> expressions = selectionsOf(asked.places);
+    expressions.push_back(asked.atoms.select);
+    for (const GroupRule& rule : asked.labels.groups) expressions.push_back(rule.select);
+    for (const ResolutionRule& rule : asked.atoms.resolutions) expressions.push_back(rule.select);
+    for (const CoarseRule& rule : asked.atoms.coarse) expressions.push_back(rule.select);
+    selections_.keep(expressions, modelOf(0));
+    if (updates_) selections_.forgetPlaces();
+    BallSet& first = chosen.first.balls;
+    if (first.labels) {
+        first.labels->chainColors = chainColors(first, progress_);
+        const std::vector<Color> colors = groupColors(first, progress_);
+        for (std::size_t g = 0; g < colors.size(); ++g) first.labels->groups[g].color = colors[g];
     }
+    return choices_.size() - 1;
+}
+
+FrameSource::Choice FrameSource::choose(const SelectOptions& atoms)
+{
+    Settings asked;
+    asked.atoms = atoms;
+    return add(asked, 0.0);
+}
+
+const Model& FrameSource::modelOf(std::size_t i) const
+{
+    const auto& models = structure_.models;
+    if (trajectory_) return models[model_];
+    return *std::find_if(models.begin(), models.end(),
+                         [&](const Model& m) { return m.number == number(i); });
 }
 
 void FrameSource::missing(int number, const std::string& there) const
@@ -130,26 +157,17 @@ void FrameSource::chooseModels(const FrameRange& range)
     if (!has(range.last)) missing(range.last, there);
 }
 
-void FrameSource::chooseAtoms()
-{
-    const auto& models = structure_.models;
-    const auto first = std::find_if(models.begin(), models.end(),
-                                    [&](const Model& m) { return m.number == number(0); });
-    resolveSelections(atoms_, trajectory_ ? models[model_] : *first, structure_);
-}
-
 void FrameSource::update()
 {
     updates_ = true;
-    forgetPlaces(structure_);
+    selections_.forgetPlaces();
 }
 
 void FrameSource::superpose(const AnchorRule& rule)
 {
     anchorRule_ = rule;
-    anchorAtoms_ = anchorAtoms(structure_, rule);
-    anchors_ = anchorsOf(structure_, rule, anchorAtoms_,
-                         trajectory_ ? structure_.models[model_].number : number(0));
+    anchorAtoms_ = anchorAtoms(selections_, rule);
+    anchors_ = anchorsOf(structure_, rule, anchorAtoms_, modelOf(0).number);
     assemblies_ = structure_.assemblies;
 }
 
@@ -165,7 +183,7 @@ void FrameSource::layOnFirst(std::size_t i, const Model& model)
     auto known = motions_.find(i);
     if (known == motions_.end() || trajectory_) { // a model stays where it was moved to
         if (trajectory_)                          // atoms by their distance are those of the frame
-            anchorAtoms_ = anchorAtoms(structure_, anchorRule_);
+            anchorAtoms_ = anchorAtoms(selections_, anchorRule_);
         const Superposition motion = superpositionOf(
             anchorsOf(structure_, anchorRule_, anchorAtoms_, model.number), anchors_);
         moveBy(motion, model, structure_);
@@ -174,51 +192,60 @@ void FrameSource::layOnFirst(std::size_t i, const Model& model)
     structure_.assemblies = moved(known->second, assemblies_);
 }
 
-BallSet FrameSource::load(std::size_t i)
+void FrameSource::moveTo(std::size_t i)
 {
-    SelectOptions options = atoms_;
-    const Model& model = structure_.models[model_];
+    if (at_ == i) return;
+    at_.reset(); // where reading fails
+    const Model& model = modelOf(i);
     if (trajectory_) {
         const std::vector<openvdb::Vec3f> positions = trajectory_->read(std::size_t(number(i)) - 1);
         for (std::size_t a = 0; a < positions.size(); ++a)
             structure_.atoms[model.begin + a].position = openvdb::Vec3d(positions[a]);
         structure_.placed = true;
-        options.model = model.number;
-    } else {
-        options.model = number(i);
     }
-    layOnFirst(i, trajectory_
-                      ? model
-                      : *std::find_if(structure_.models.begin(), structure_.models.end(),
-                                      [&](const Model& m) { return m.number == number(i); }));
-    return selectBalls(structure_, options, probe_, progress_);
+    layOnFirst(i, model);
+    at_ = i;
 }
 
-void FrameSource::keepColors(BallSet& selection)
+FrameSource::Frame FrameSource::load(std::size_t i, const Chosen& chosen)
 {
-    if (!selection.labels || !first_.labels) return;
-    selection.labels->chainColors = first_.labels->chainColors;
+    moveTo(i);
+    SelectOptions options = chosen.asked.atoms;
+    options.model = modelOf(i).number;
+    Frame frame{selectBalls(selections_, options, chosen.asked.labels, chosen.probe, progress_),
+                {}};
+    frame.places = findPlaces(selections_, chosen.asked.places, frame.balls);
+    return frame;
+}
+
+/// Gives frames the colours of chains and groups that the first one has.
+static void keepColors(const BallSet& first, BallSet& selection)
+{
+    if (!selection.labels || !first.labels) return;
+    selection.labels->chainColors = first.labels->chainColors;
     const std::size_t known =
-        std::min(selection.labels->groups.size(), first_.labels->groups.size());
+        std::min(selection.labels->groups.size(), first.labels->groups.size());
     for (std::size_t g = 0; g < known; ++g)
-        selection.labels->groups[g].color = first_.labels->groups[g].color;
+        selection.labels->groups[g].color = first.labels->groups[g].color;
 }
 
-const BallSet& FrameSource::balls(std::size_t i)
+const FrameSource::Frame& FrameSource::frame(std::size_t i, Chosen& chosen)
 {
-    if (i == 0) return first_;
-    const auto known = loaded_.find(i);
-    if (known != loaded_.end()) return known->second;
-    BallSet selection = load(i);
-    if (!updates_ && selection.balls.size() != first_.balls.size())
+    if (i == 0) return chosen.first;
+    auto& loaded = chosen.loaded;
+    const auto known = loaded.find(i);
+    if (known != loaded.end()) return known->second;
+    Frame frame = load(i, chosen);
+    const std::size_t first = chosen.first.balls.balls.size(), now = frame.balls.balls.size();
+    if (!updates_ && now != first)
         throw Error(ErrorKind::Input, "frame " + std::to_string(number(i)) + ": expected " +
-                                          std::to_string(first_.balls.size()) +
-                                          " atoms as in frame " + std::to_string(number(0)) +
-                                          ", got " + std::to_string(selection.balls.size()));
-    keepColors(selection);
+                                          std::to_string(first) + " atoms as in frame " +
+                                          std::to_string(number(0)) + ", got " +
+                                          std::to_string(now));
+    keepColors(chosen.first.balls, frame.balls);
     // The two before it stay, for displacement().
-    loaded_.erase(loaded_.begin(), loaded_.lower_bound(i > 2 ? i - 2 : 0));
-    return loaded_.emplace(i, std::move(selection)).first->second;
+    loaded.erase(loaded.begin(), loaded.lower_bound(i > 2 ? i - 2 : 0));
+    return loaded.emplace(i, std::move(frame)).first->second;
 }
 
 std::vector<openvdb::Vec3f> FrameSource::displacement(std::size_t i)
@@ -235,7 +262,7 @@ std::vector<openvdb::Vec3f> FrameSource::displacement(std::size_t i)
 
 std::string FrameSource::description()
 {
-    return describeSelection(structure_, first_);
+    return describeSelection(structure_, choices_[surface].first.balls);
 }
 
 } // namespace molsurf

@@ -123,7 +123,7 @@ void add(std::optional<T>& sum, const std::optional<T>& part)
 /// Adds all but the statistics of curvature. Shares are means over vertices. At the first part,
 /// when the sum has no vertices, kind and flags are set, and numbers that may be unknown begin
 /// at 0.
-void add(SurfaceReport& sum, const SurfaceReport& part)
+SurfaceReport& operator+=(SurfaceReport& sum, const SurfaceReport& part)
 {
     const auto smooth = [](const SurfaceReport& s) {
         return double(s.vertices) * (1.0 - s.kinkShare);
@@ -172,6 +172,7 @@ void add(SurfaceReport& sum, const SurfaceReport& part)
     } else if (part.integrals) {
         sum.integrals = part.integrals;
     }
+    return sum;
 }
 
 /// Whether an evolution says more of the whole than another.
@@ -180,10 +181,11 @@ bool tellsMore(const EvolutionReport& a, const EvolutionReport& b)
     return a.converged != b.converged ? !a.converged : a.steps > b.steps;
 }
 
-void add(Report& sum, const Report& part, const std::string& name)
+/// Adds the report of further parts.
+Report& operator+=(Report& sum, const Report& part)
 {
-    add(sum.surface, part.surface);
-    sum.parts.push_back({name, part.atoms, part.surface});
+    sum.surface += part.surface;
+    append(sum.parts, part.parts);
     for (const Report::Group& group : part.groups) {
         const auto found =
             std::find_if(sum.groups.begin(), sum.groups.end(),
@@ -202,7 +204,16 @@ void add(Report& sum, const Report& part, const std::string& name)
     sum.activeVoxels += part.activeVoxels;
     sum.gridBytes += part.gridBytes;
     for (const auto& [stage, seconds] : part.seconds) sum.addSeconds(stage, seconds);
-    for (const std::string& warning : part.warnings) sum.warnings.push_back(name + ": " + warning);
+    append(sum.warnings, part.warnings);
+    return sum;
+}
+
+/// The report of one part, with its name.
+Report named(const std::string& name, Report report)
+{
+    report.parts = {{name, report.atoms, report.surface}};
+    for (std::string& warning : report.warnings) warning = name + ": " + warning;
+    return report;
 }
 
 /// The same colours for a part as for the whole.
@@ -250,7 +261,7 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
             whole.shown.push_back(field);
         }
         append(whole.mesh, result.mesh, part.name);
-        add(whole.report, result.report, part.name);
+        whole.report += named(part.name, std::move(result.report));
     }
     colorByCurvature(options.color, atoms.coloring, whole.mesh);
     std::vector<SurfaceReport::Cavity>& cavities = whole.report.surface.cavities;

@@ -302,7 +302,7 @@ bool takeView(const std::string& view, DrawOptions& picture)
 void setUpright(const BallSet& atoms, DrawOptions& picture)
 {
     const bool chosen = picture.upright.lengthSqr() > 0.0 || picture.toEye.lengthSqr() > 0.0;
-    if (atoms.membrane && !chosen) picture.upright = *atoms.membrane;
+    if (atoms.record.membrane && !chosen) picture.upright = *atoms.record.membrane;
 }
 
 std::function<Color(const openvdb::Vec3d&)>

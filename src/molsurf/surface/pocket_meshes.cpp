@@ -3,12 +3,10 @@
 
 #include "molsurf/analysis/proximity/deviation.h"
 #include "molsurf/kernel/core/cancel.h"
-#include "molsurf/kernel/grid/grid_like.h"
 #include "molsurf/kernel/mesh/volume_mesher.h"
 #include "molsurf/surface/pockets.h"
 
 #include <cmath>
-#include <stdexcept>
 
 namespace molsurf
 {
@@ -75,18 +73,15 @@ void addBody(const openvdb::FloatGrid& field, Mesh& mesh)
 
 } // namespace
 
-Mesh pocketBodies(const MolecularSurface& result, const Progress& progress)
+Mesh pocketBodies(const Pockets& pockets, const Progress& progress)
 {
-    const auto& list = result.report.pockets->list;
-    const auto ids = findGrid<openvdb::Int32Grid>(result.fields, "pocket_id");
-    const auto rooms = findGrid<openvdb::FloatGrid>(result.fields, "pocket_room");
-    if (!ids || !rooms) throw std::logic_error("pockets: pocket_id or pocket_room is missing");
-    const std::vector<std::vector<Coord>> voxels = voxelsOf(*ids, list.size());
+    const std::vector<PocketReport>& list = pockets.list;
+    const std::vector<std::vector<Coord>> voxels = voxelsOf(*pockets.ids, list.size());
     Mesh mesh;
     for (std::size_t p = 0; p < list.size(); ++p) {
         stopIfCancelled(progress);
         mesh.parts.push_back({pocketName(p + 1, list[p].volume), mesh.triangles.size()});
-        addBody(*insideOf(voxels[p], std::int32_t(p + 1), *ids, *rooms), mesh);
+        addBody(*insideOf(voxels[p], std::int32_t(p + 1), *pockets.ids, *pockets.rooms), mesh);
         mesh.colors.resize(mesh.positions.size(), pocketColor(p + 1));
     }
     mesh.normals = vertexNormals(mesh);

@@ -4,14 +4,13 @@
 /// @file
 /// The bodies of pockets.
 
-#include "molsurf/surface.h"
+#include "molsurf/analysis/pockets/find_pockets.h"
+#include "molsurf/mesh.h"
 
 namespace molsurf
 {
 
-/// The space of each pocket as a closed part of a mesh, in the order of the report and named as in
-/// legends, with normals out of it and the colours of pockets.
-/// @param[in] result  with pockets, and the fields `pocket_id` and `pocket_room`
-Mesh pocketBodies(const MolecularSurface& result, const Progress& progress);
+/// Makes MolecularSurface::pocketBodies.
+Mesh pocketBodies(const Pockets& pockets, const Progress& progress);
 
 } // namespace molsurf

@@ -7,6 +7,7 @@
 #include "molsurf/kernel/pipeline/surface_run.h"
 #include "molsurf/show/color/palette.h"
 #include "molsurf/surface/field_table.h"
+#include "molsurf/surface/pocket_meshes.h"
 
 #include <algorithm>
 #include <array>
@@ -125,12 +126,19 @@ void addPockets(const BallSet& atoms, const SurfaceOptions& options, Progress& p
             formatted("`voxel` %g: pockets that are narrow are lost on voxels above half of "
                       "`probeIn` [hint: `voxel` %g]",
                       options.voxel, 0.5 * asked.probeIn));
-    Pockets found = findPockets(atoms.balls, asked, options.voxel, atoms.pocketAt, progress);
+    Pockets found =
+        findPockets(atoms.balls, asked, options.voxel, options.places.pocketAt, progress);
     if (options.color == ColorBy::Pocket && !result.mesh.normals.empty())
         if (const std::size_t closed = colorPockets(found, progress, result.mesh))
             result.report.warnings.push_back(closedText(closed, found.list.size(), options.kind));
-    result.report.pockets = Report::Pockets{asked.probeIn, asked.probeOut, asked.cut,
-                                            asked.neck,    options.voxel,  std::move(found.list)};
+    if (options.pocketBodies) result.pocketBodies = pocketBodies(found, progress);
+    result.report.pockets = Report::Pockets{asked.probeIn,
+                                            asked.probeOut,
+                                            asked.cut,
+                                            asked.neck,
+                                            options.voxel,
+                                            std::move(found.list),
+                                            !options.places.pocketAt.empty()};
     const openvdb::GridPtrVec grids = {found.ids, found.depths, found.rooms};
     const bool alone = !options.grid; // for their callers: no file has grids then
     for (const auto& grid : grids)

@@ -12,11 +12,12 @@
 namespace molsurf
 {
 
-void addPore(const BallSet& atoms, Progress& progress, Report& report)
+void addPore(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
+             Report& report)
 {
     Stopwatch watch(report);
     progress.update("pore", 0.0);
-    report.pore = findPore(atoms.balls, *atoms.pore, progress);
+    report.pore = findPore(atoms.balls, *options.places.pore, progress);
     watch.stop("pore");
 }
 

@@ -10,9 +10,10 @@
 namespace molsurf
 {
 
-/// Puts the pore that atoms were read with in a report.
-/// @param[in] atoms  with BallSet::pore
-void addPore(const BallSet& atoms, Progress& progress, Report& report);
+/// Puts the pore in a report.
+/// @param[in] options  with SearchPlaces::pore
+void addPore(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
+             Report& report);
 
 /// Adds a closed tube about stations to a mesh that has the scalar "radius", coloured by
 /// poreColor().

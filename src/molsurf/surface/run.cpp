@@ -33,7 +33,8 @@ MolecularSurface run(const BallSet& atoms, const SurfaceOptions& options, Progre
 void describeAtoms(const BallSet& atoms, Report& report)
 {
     report.atoms = atoms.whole();
-    if (atoms.beads > 0) report.coarse = Report::Coarse{atoms.beads, atoms.beadAtoms};
+    const SelectionRecord& record = atoms.record;
+    if (record.beads > 0) report.coarse = Report::Coarse{record.beads, record.beadAtoms};
     for (const ResolutionGroup& group : atoms.resolutions) {
         report.resolutions.push_back(
             {group.rule.select, group.rule.resolution, group.balls, group.level});

@@ -221,10 +221,10 @@ Setting assemblySetting()
                      "ncs: with the copies of MTRIX records or struct_ncs_oper",
                      "none"};
     assembly.set = [](Settings& s, const Values& values) {
-        s.atoms.assembly.reset();
-        if (values.back() != "none") s.atoms.assembly = values.back();
+        s.atoms.assembly.name.reset();
+        if (values.back() != "none") s.atoms.assembly.name = values.back();
     };
-    assembly.get = [](const Settings& s) { return s.atoms.assembly.value_or("none"); };
+    assembly.get = [](const Settings& s) { return s.atoms.assembly.name.value_or("none"); };
     return assembly;
 }
 
@@ -235,10 +235,10 @@ Setting copiesSetting()
                    "fold:N, those about the nearest N-fold axis, with copy 1",
                    "all"};
     copies.set = [](Settings& s, const Values& values) {
-        s.atoms.copies = parseCopies(values.back());
+        s.atoms.assembly.copies = parseCopies(values.back());
     };
     copies.get = [](const Settings& s) {
-        return s.atoms.copies.all() ? "all" : textOf(s.atoms.copies);
+        return s.atoms.assembly.copies.all() ? "all" : textOf(s.atoms.assembly.copies);
     };
     return copies;
 }
@@ -254,7 +254,7 @@ std::vector<Setting> atomSettings()
     Setting maxInput{"max-input", SettingType::Text, "SIZE",
                      "bytes that INPUT may have, unpacked, such as 10G", "4G"};
     maxInput.set = [](Settings& s, const Values& values) {
-        s.atoms.maxInput = sizeValue("max-input", values.back());
+        s.atoms.limits.maxInput = sizeValue("max-input", values.back());
     };
     return {
         text("select", "EXPR", "atoms: \"chain A and resid 5-9\" or \"/1/A/5-9|*;polymer\"", "all",
@@ -270,11 +270,11 @@ std::vector<Setting> atomSettings()
         flag("instances",
              "the surface of each distinct copy of the assembly once:\n"
              "the .glb, .usda, .html, .png and .json place the copies",
-             of(&SelectOptions::instances)),
+             MOLSURF_OF(atoms.assembly.instances)),
         flag("by-symmetry",
              "the joint surface of the whole assembly from one unit,\n"
              "which its rotations repeat",
-             of(&SelectOptions::bySymmetry)),
+             MOLSURF_OF(atoms.assembly.bySymmetry)),
         copiesSetting(),
         text("altloc", "A", "alternate location to take, or all", "highest occupancy",
              of(&SelectOptions::altloc)),
@@ -288,7 +288,7 @@ std::vector<Setting> atomSettings()
         flag("no-hetero", "drop all ligands and ions", of(&SelectOptions::hetero), Hetero::None),
         flag("waters", "keep waters", of(&SelectOptions::waters)),
         flag("charges", "the charges of all atoms come along, for the files of APBS",
-             of(&SelectOptions::charges)),
+             MOLSURF_OF(labels.charges)),
         changed(text("radii", "SET", "van der Waals radii: a name of `listRadii`, or a file", "",
                      of(&SelectOptions::radii)),
                 [](Setting& row) {
@@ -482,7 +482,7 @@ std::vector<Setting> resolutionSettings()
         for (const CoarseRule& rule : s.atoms.coarse) all.push_back(nameOf(rule));
         return all.empty() ? "atom" : joinWords(all, ", ");
     };
-    for (Setting* row : {&resolution, &coarse}) row->ofAtoms = row->choosesBalls = true;
+    resolution.of = coarse.of = SettingOf::Balls;
     return {
         onlyOf(evolves, within(0.01, 10.0,
                                number("epsilon", "E",
@@ -543,16 +543,16 @@ void setColor(Settings& s, const Values& values)
     const std::string typed = lowered(values.back());
     const std::string word = typed == "residue-type" ? "residue" : typed;
     s.colorGroups.reset();
-    s.atoms.plainColor.reset();
-    s.atoms.valueBy = parseValueBy(values.back());
-    s.options.color = s.atoms.valueBy ? ColorBy::Value : ColorBy::Nothing;
-    if (s.atoms.valueBy) return;
+    s.labels.plainColor.reset();
+    s.labels.valueBy = parseValueBy(values.back());
+    s.options.color = s.labels.valueBy ? ColorBy::Value : ColorBy::Nothing;
+    if (s.labels.valueBy) return;
     if (std::count(coloredGroups.begin(), coloredGroups.end(), word)) {
         s.colorGroups = parseGroupBy(word);
         return;
     }
     if (word.rfind("plain=", 0) == 0) {
-        s.atoms.plainColor = colorValue("color", "", word.substr(6));
+        s.labels.plainColor = colorValue("color", "", word.substr(6));
         s.options.color = ColorBy::Plain;
         return;
     }
@@ -581,7 +581,7 @@ Setting colorSetting()
     color.set = setColor;
     color.get = [](const Settings& s) -> std::string {
         if (s.colorGroups) return textOf(*s.colorGroups);
-        return s.atoms.valueBy ? textOf(*s.atoms.valueBy) : nameOf(s.options.color);
+        return s.labels.valueBy ? textOf(*s.labels.valueBy) : nameOf(s.options.color);
     };
     color.file = [](const std::string& value) {
         for (const std::string& start : colorFiles())
@@ -607,7 +607,7 @@ void setRange(Settings& s, const Values& values)
     if (!(low < high))
         wrongValue("range", expected, values.back(),
                    low > high ? meant(words[1] + "," + words[0]) : "");
-    s.atoms.coloring.range = {low, high};
+    s.labels.coloring.range = {low, high};
 }
 
 /// The rows of how values and curvatures are shown.
@@ -616,7 +616,7 @@ std::vector<Setting> coloringSettings()
     Setting range{"range", SettingType::List, "LOW,HIGH", "values at the ends of the colours", ""};
     range.set = setRange;
     range.get = [](const Settings& s) {
-        const auto& r = s.atoms.coloring.range;
+        const auto& r = s.labels.coloring.range;
         return r ? shortest((*r)[0]) + "," + shortest((*r)[1]) : "auto";
     };
     Values palettes;
@@ -634,10 +634,10 @@ std::vector<Setting> coloringSettings()
         if (!row)
             wrongValue("palette", joinWords(palettes, ", "), values.back(),
                        didYouMean(values.back(), palettes));
-        s.atoms.coloring.palette = row->word;
+        s.labels.coloring.palette = row->word;
     };
     palette.get = [](const Settings& s) {
-        return s.atoms.coloring.palette.empty() ? "auto" : s.atoms.coloring.palette;
+        return s.labels.coloring.palette.empty() ? "auto" : s.labels.coloring.palette;
     };
     Setting valueOf{"value-of", SettingType::Word,
                     "WORD",     "whose values: atom, or residue (the mean of its atoms)",
@@ -645,10 +645,10 @@ std::vector<Setting> coloringSettings()
     valueOf.set = [](Settings& s, const Values& values) {
         const std::string word = lowered(values.back());
         if (word != "atom" && word != "residue") wrongValue("value-of", "atom or residue", word);
-        s.atoms.coloring.byResidue = word == "residue";
+        s.labels.coloring.byResidue = word == "residue";
     };
     valueOf.get = [](const Settings& s) {
-        return std::string(s.atoms.coloring.byResidue ? "residue" : "atom");
+        return std::string(s.labels.coloring.byResidue ? "residue" : "atom");
     };
     Setting outward{"outward", SettingType::Number, "A",
                     "potentials are taken A outside of the surface [Å]", "probe radius; sas: 0"};
@@ -658,19 +658,19 @@ std::vector<Setting> coloringSettings()
         const double length = parsedValue<double>("outward", "a number", values.back());
         if (!(length >= 0.0 && length <= 100.0))
             wrongValue("outward", "a number of Å from 0 to 100", values.back());
-        s.atoms.coloring.outward = length;
+        s.labels.coloring.outward = length;
     };
     outward.get = [](const Settings& s) -> SettingValue {
-        const auto& length = s.atoms.coloring.outward;
+        const auto& length = s.labels.coloring.outward;
         if (length) return *length;
         return std::string("auto");
     };
     std::vector<Setting> rows = {
         range, palette, valueOf,
         flag("flat-values", "a point has the value of one atom, not a blend of nearby ones",
-             MOLSURF_OF(atoms.coloring.flat)),
+             MOLSURF_OF(labels.coloring.flat)),
         outward};
-    for (Setting& row : rows) row.ofAtoms = true;
+    for (Setting& row : rows) row.of = SettingOf::Molecule;
     return rows;
 }
 
@@ -705,9 +705,9 @@ std::vector<Setting> groupSettings()
     Setting groupBy =
         parsed("group-by", "WORD",
                "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead", "",
-               MOLSURF_OF(atoms.groupBy), parseGroupBy);
+               MOLSURF_OF(labels.groupBy), parseGroupBy);
     groupBy.words = {"chain", "entity", "class", "copy"};
-    groupBy.ofAtoms = true;
+    groupBy.of = SettingOf::Molecule;
     return {groupBy, split, surfaceOf,
             changed(flag("interfaces", "buried areas between groups, for the report",
                          MOLSURF_OF(options.interfaces)),
@@ -727,20 +727,20 @@ std::vector<Setting> pocketSettings()
                       "only the pocket at these atoms of the file, used or not:\n"
                       "a ligand, or residues that line it; volume 0 in frames\n"
                       "where it is closed",
-                      "none", MOLSURF_OF(atoms.pocketAt));
+                      "none", MOLSURF_OF(places.pocketAt));
     Setting pore = text("pore", "WAY",
                         "the pore, for the report, .pore.csv, profiles .pore.svg,\n"
                         ".pore.png, tubes .pore.ply, .pore.obj, .pore.glb:\n"
                         "auto, an axis as z, or its ends, points or atoms, as\n"
                         "'0,0,-9 -> 0,0,9', 'resid 14 -> resid 43'",
-                        "none", MOLSURF_OF(atoms.pore));
+                        "none", MOLSURF_OF(places.pore));
     Setting tunnels = text("tunnels-from", "PLACE",
                            "the ways out of a place, for the report, pictures and pages,\n"
                            ".tunnels.csv, over frames .tunnel_frames.csv, and as\n"
                            ".tunnels.ply, .obj, .glb, .pdb, .cif, .cxc, .pml: atoms, as\n"
                            "'resid 197', or a point X,Y,Z",
-                           "none", MOLSURF_OF(atoms.tunnelsFrom));
-    at.ofAtoms = pore.ofAtoms = tunnels.ofAtoms = true;
+                           "none", MOLSURF_OF(places.tunnelsFrom));
+    at.of = pore.of = tunnels.of = SettingOf::Molecule;
     return {
         at,
         pore,
@@ -817,10 +817,8 @@ const std::vector<Setting>& settingTable()
 {
     static const std::vector<Setting> all = [] {
         std::vector<Setting> rows = atomSettings();
-        for (Setting& row : rows) {
-            row.ofAtoms = true;
-            row.choosesBalls = row.name != std::string("charges");
-        }
+        for (Setting& row : rows)
+            row.of = row.name == std::string("charges") ? SettingOf::Molecule : SettingOf::Balls;
         for (auto* more : {surfaceSettings, meshSettings, resolutionSettings, groupSettings,
                            coloringSettings, pocketSettings, flowSettings})
             for (Setting& row : more()) rows.push_back(std::move(row));

@@ -162,7 +162,7 @@ struct Source {
     const openvdb::GridPtrVec& grids;
     const openvdb::MetaMap& metadata;
     std::vector<Coord> voxels; ///< those nearest to the vertices
-    const SelectOptions::Coloring& coloring;
+    const Coloring& coloring;
 };
 
 /// Adds the identities that the grids hold to the mesh.
@@ -315,7 +315,7 @@ void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fiel
 }
 
 StoredSurface storedSurface(const openvdb::GridPtrVec& written, const openvdb::MetaMap& metadata,
-                            const SurfaceOptions& options, const SelectOptions::Coloring& coloring,
+                            const SurfaceOptions& options, const Coloring& coloring,
                             Progress& progress)
 {
     const openvdb::GridPtrVec grids = withIntLabels(written);

@@ -43,7 +43,7 @@ void addLabelMetadata(const BallSet& atoms, const std::vector<std::string>& fiel
 /// @throws Error(ErrorKind::Input) if there is no such surface, or if the file cannot give the
 ///         colours; says which fields they need
 StoredSurface storedSurface(const openvdb::GridPtrVec& grids, const openvdb::MetaMap& metadata,
-                            const SurfaceOptions& options, const SelectOptions::Coloring& coloring,
+                            const SurfaceOptions& options, const Coloring& coloring,
                             Progress& progress);
 
 } // namespace molsurf

@@ -20,7 +20,7 @@ void addTunnels(const BallSet& atoms, const SurfaceOptions& options, Progress& p
 {
     Stopwatch watch(report);
     progress.update("tunnels", 0.0);
-    report.tunnels = findTunnels(atoms.balls, *atoms.tunnelsFrom,
+    report.tunnels = findTunnels(atoms.balls, *options.places.tunnelsFrom,
                                  {options.tunnelProbe, options.pocket.probeOut}, progress);
     watch.stop("tunnels");
 }

@@ -13,8 +13,8 @@
 namespace molsurf
 {
 
-/// Puts the tunnels that atoms were read with in a report.
-/// @param[in] atoms  with BallSet::tunnelsFrom
+/// Puts the tunnels in a report.
+/// @param[in] options  with SearchPlaces::tunnelsFrom
 void addTunnels(const BallSet& atoms, const SurfaceOptions& options, Progress& progress,
                 Report& report);
 

@@ -29,7 +29,7 @@ BallSet beadsOf(const std::string& file, const SurfaceOptions& options,
 {
     SelectOptions select;
     for (const std::string& rule : rules) select.coarse.push_back(parseCoarse(rule));
-    return selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/" + file), select,
+    return selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/" + file), select, {},
                        probeOf(options), quiet);
 }
 
@@ -78,7 +78,7 @@ TEST(SizeBeads, AtomsKeepTheirRadii)
     const Structure crambin = readStructure(std::string(MOLSURF_TEST_DATA) + "/1crn.pdb");
     const BallSet mixed = beadsOf("1crn.pdb", {}, {"A/1-20=residue"});
     const BallSet atoms = beadsOf("1crn.pdb", {}, {});
-    EXPECT_GT(mixed.beads, 30u);
+    EXPECT_GT(mixed.record.beads, 30u);
     std::size_t kept = 0;
     for (const Ball& ball : mixed.balls) {
         const Ball& atom = atoms.balls[std::size_t(ball.atom)];
@@ -87,8 +87,8 @@ TEST(SizeBeads, AtomsKeepTheirRadii)
         EXPECT_EQ(ball.radius, atom.radius);
         ++kept;
     }
-    EXPECT_EQ(kept, mixed.balls.size() - mixed.beads);
-    EXPECT_EQ(mixed.balls.size() - mixed.beads + mixed.beadAtoms, 327u);
+    EXPECT_EQ(kept, mixed.balls.size() - mixed.record.beads);
+    EXPECT_EQ(mixed.balls.size() - mixed.record.beads + mixed.record.beadAtoms, 327u);
 }
 
 TEST(SizeBeads, BeadsOfOneCentreAreAnError)

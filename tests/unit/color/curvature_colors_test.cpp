@@ -15,7 +15,7 @@ TEST(CurvatureScale, EndsBelowTheLargestTwentieth)
 {
     std::vector<float> curvature;
     for (int i = 0; i < 100; ++i) curvature.push_back(float(i < 50 ? i + 1 : -(i + 1)));
-    const ColorScale scale = curvatureScale(curvature, SelectOptions::Coloring());
+    const ColorScale scale = curvatureScale(curvature, Coloring());
     EXPECT_DOUBLE_EQ(scale.high, 96.0);
     EXPECT_DOUBLE_EQ(scale.low, -96.0);
 }
@@ -23,7 +23,7 @@ TEST(CurvatureScale, EndsBelowTheLargestTwentieth)
 TEST(CurvatureScale, OfAPlaneHasARange)
 {
     for (const auto& curvature : {std::vector<float>{}, std::vector<float>(20, 0.0f)}) {
-        const ColorScale scale = curvatureScale(curvature, SelectOptions::Coloring());
+        const ColorScale scale = curvatureScale(curvature, Coloring());
         EXPECT_GT(scale.high, 0.0);
         EXPECT_DOUBLE_EQ(scale.low, -scale.high);
     }
@@ -31,7 +31,7 @@ TEST(CurvatureScale, OfAPlaneHasARange)
 
 TEST(CurvatureScale, HasTheRangeAndThePaletteThatAreGiven)
 {
-    SelectOptions::Coloring options;
+    Coloring options;
     options.range = {{-0.5, 1.0}};
     options.palette = "viridis";
     const ColorScale scale = curvatureScale({3.0f, 4.0f}, options);
@@ -44,8 +44,8 @@ TEST(CurvatureScale, ColoursVerticesByTheirOwn)
 {
     Mesh mesh;
     mesh.scalars = {{"mean_curvature", {0.5f, -0.5f, 0.0f}}, {"gaussian_curvature", {0, 0, 0}}};
-    colorByCurvature(ColorBy::MeanCurvature, SelectOptions::Coloring(), mesh);
-    const ColorScale scale = curvatureScale(mesh.scalars[0].values, SelectOptions::Coloring());
+    colorByCurvature(ColorBy::MeanCurvature, Coloring(), mesh);
+    const ColorScale scale = curvatureScale(mesh.scalars[0].values, Coloring());
     ASSERT_EQ(mesh.colors.size(), 3u);
     EXPECT_EQ(mesh.colors[0], scale.stops.back());
     EXPECT_EQ(mesh.colors[1], scale.stops.front());

@@ -45,7 +45,7 @@ struct Tube {
             }
         return out;
     }
-    BallSet::PoreWay ends(double reach) const
+    SearchPlaces::PoreWay ends(double reach) const
     {
         return {{{at(0.0, 0.0, -reach), true}, {at(0.0, 0.0, reach), true}}, Vec3d(0.0)};
     }
@@ -274,14 +274,14 @@ TEST(FindPore, TheNarrowestPlaceIsABottleneck)
     const auto middleOf = [&](std::size_t begin, std::size_t end) {
         Vec3d sum(0.0);
         for (std::size_t i = begin; i < end; ++i) sum += balls[i].center / double(end - begin);
-        return BallSet::PoreWay::End{sum, false};
+        return SearchPlaces::End{sum, false};
     };
     const Report::Pore pore =
         findPore(balls, {{middleOf(20, 28), middleOf(330, 338)}, Vec3d(0.0)}, nobody);
     EXPECT_TRUE(narrowestOf(pore).isBottleneck);
 }
 
-void expectError(const std::vector<Ball>& balls, const BallSet::PoreWay& way, ErrorKind kind,
+void expectError(const std::vector<Ball>& balls, const SearchPlaces::PoreWay& way, ErrorKind kind,
                  const char* text)
 {
     try {

@@ -235,7 +235,7 @@ TEST(FindTunnels, FromAtomsALargeHallCountsAsALargeProbe)
     EXPECT_LT(startOf(3.5, 4.6), 4.0);
 }
 
-void expectError(const std::vector<Ball>& balls, const BallSet::PoreWay::End& from,
+void expectError(const std::vector<Ball>& balls, const SearchPlaces::End& from,
                  const TunnelOptions& options, const char* text)
 {
     try {

@@ -142,8 +142,8 @@ TEST(Altloc, WarnsIfThereAreNone)
     options.altloc = "A";
     const BallSet selection = selectBalls(readStructure(dataFile("1crn.pdb")), options);
     EXPECT_EQ(selection.balls.size(), 327u);
-    ASSERT_EQ(selection.warnings.size(), 1u);
-    EXPECT_HAS(selection.warnings[0], "have no alternate locations");
+    ASSERT_EQ(selection.record.warnings.size(), 1u);
+    EXPECT_HAS(selection.record.warnings[0], "have no alternate locations");
 }
 
 } // namespace

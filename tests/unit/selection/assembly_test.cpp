@@ -13,7 +13,7 @@ namespace
 SelectOptions assembly(const std::string& name)
 {
     SelectOptions options;
-    options.assembly = name;
+    options.assembly.name = name;
     return options;
 }
 
@@ -91,9 +91,9 @@ TEST(Assembly, CopyByCopyAndOnlyItsChains)
         EXPECT_EQ(selection.balls[i].center, openvdb::Vec3d(x[i], 2, 3 + atoms[i])) << i;
         EXPECT_EQ(selection.balls[i].atom, atoms[i]) << i;
     }
-    ASSERT_EQ(selection.drops.size(), 1u);
-    EXPECT_EQ(selection.drops[0].reason, "not in the assembly");
-    EXPECT_EQ(selection.drops[0].count, 1u);
+    ASSERT_EQ(selection.record.drops.size(), 1u);
+    EXPECT_EQ(selection.record.drops[0].reason, "not in the assembly");
+    EXPECT_EQ(selection.record.drops[0].count, 1u);
 }
 
 TEST(Assembly, CopiesInOnePlaceCountOnce)
@@ -104,7 +104,7 @@ TEST(Assembly, CopiesInOnePlaceCountOnce)
     EXPECT_EQ(selection.balls.size(), 9u);
     EXPECT_EQ(selection.placement.begin, (std::vector<std::size_t>{0, 3, 6, 6, 9}));
     EXPECT_EQ(selection.balls[6].center, openvdb::Vec3d(31, 2, 3));
-    EXPECT_EQ(selection.warnings.size(), 1u);
+    EXPECT_EQ(selection.record.warnings.size(), 1u);
     // Atoms that the file has in one place, and the assembly moves apart, all stay.
     for (Atom& atom : s.atoms) atom.position = openvdb::Vec3d(1, 2, 3);
     s.assemblies = {{"1", {{{"A"}, {moved(10)}}, {{"B"}, {moved(20)}}}, ""}};
@@ -123,8 +123,9 @@ TEST(Assembly, OfMoreAtomsThanMemoryHoldsIsRefused)
     s.assemblies = {{"1", {{{"A"}, {}}}, ""}};
     for (int k = 0; k < 100; ++k) s.assemblies[0].parts[0].operators.push_back(moved(200 * k));
     SelectOptions options = assembly("1");
-    options.memory = 1 << 20;
-    while (!hasMemory(80e6, options.memory)) options.memory += 1 << 20; // 160 MB are needed
+    options.limits.memory = 1 << 20;
+    while (!hasMemory(80e6, options.limits.memory))
+        options.limits.memory += 1 << 20; // 160 MB are needed
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, options); }), "its atoms take about");
 }
 
@@ -137,7 +138,7 @@ TEST(Assembly, InstancesAreThePrototypesOnce)
                       {{"C", "A"}, {moved(20)}}},
                      ""}};
     SelectOptions options = assembly("1");
-    options.instances = true;
+    options.assembly.instances = true;
     const BallSet selection = selectBalls(s, options);
     // A and B at 10; A, B and C at 20; B at 30.
     EXPECT_EQ(selection.placement.begin, (std::vector<std::size_t>{0, 2, 5, 6}));

@@ -33,8 +33,8 @@ Structure residuesOf(int residues, int atoms, const std::function<float(int)>& b
     return s;
 }
 
-BallValues valuesOf(const Structure& s, const std::string& by,
-                    const SelectOptions::Coloring& coloring, std::vector<std::string>& warnings)
+BallValues valuesOf(const Structure& s, const std::string& by, const Coloring& coloring,
+                    std::vector<std::string>& warnings)
 {
     std::vector<Ball> balls;
     for (std::size_t i = 0; i < s.atoms.size(); ++i)
@@ -46,7 +46,7 @@ BallValues valuesOf(const Structure& s, const std::string& by,
 BallValues valuesOf(const Structure& s, const std::string& by)
 {
     std::vector<std::string> warnings;
-    return valuesOf(s, by, SelectOptions::Coloring(), warnings);
+    return valuesOf(s, by, Coloring(), warnings);
 }
 
 /// Residues of three atoms, the last of which is a hydrogen beside the second.
@@ -73,7 +73,7 @@ TEST(BallValues, HydrogensWithoutOneTakeThatOfTheirAtom)
 
 TEST(BallValues, OfResiduesAreMeans)
 {
-    SelectOptions::Coloring coloring;
+    Coloring coloring;
     coloring.byResidue = true;
     std::vector<std::string> warnings;
     EXPECT_EQ(valuesOf(withHydrogens(30.0f), "bfactor", coloring, warnings).valueOf,
@@ -83,7 +83,7 @@ TEST(BallValues, OfResiduesAreMeans)
 
 TEST(BallValues, ThatAreAllTheSameShowNothing)
 {
-    SelectOptions::Coloring coloring;
+    Coloring coloring;
     std::vector<std::string> warnings;
     const Structure s = residuesOf(3, 1, [](int) { return 12.5f; });
     const BallValues same = valuesOf(s, "bfactor", coloring, warnings);

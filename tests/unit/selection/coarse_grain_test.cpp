@@ -19,12 +19,13 @@ struct Recorder {
 };
 
 BallSet beadsOf(const Structure& s, const std::vector<std::string>& rules,
-                SelectOptions options = {}, Recorder* recorder = nullptr)
+                SelectOptions options = {}, Recorder* recorder = nullptr,
+                const LabelOptions& labels = {})
 {
     const BallSet atoms = selectBalls(s, options);
     for (const std::string& rule : rules) options.coarse.push_back(parseCoarse(rule));
     if (recorder) recorder->members = coarseGrain(s, atoms.balls, options.coarse, 0.0, {}).members;
-    return selectBalls(s, options);
+    return selectBalls(s, options, labels);
 }
 
 const Atom& atomOf(const Structure& s, const Ball& ball)
@@ -55,8 +56,8 @@ TEST(CoarseGrain, BackboneAndSideChainOfEveryResidue)
     const BallSet beads = beadsOf(s, {"residue"}, {}, &recorder);
     // 46 residues, 4 glycines without a side chain.
     ASSERT_EQ(beads.balls.size(), 88u);
-    EXPECT_EQ(beads.beads, 88u);
-    EXPECT_EQ(beads.beadAtoms, 327u);
+    EXPECT_EQ(beads.record.beads, 88u);
+    EXPECT_EQ(beads.record.beadAtoms, 327u);
     std::vector<int> seen(327, 0);
     for (std::size_t b = 0; b < beads.balls.size(); ++b) {
         std::map<bool, int> backbone;
@@ -100,7 +101,8 @@ TEST(CoarseGrain, ClustersHaveAboutAsManyAtomsAsAsked)
     for (const int n : {2, 4, 10, 50, 1000}) {
         Recorder recorder;
         const BallSet beads = beadsOf(s, {std::to_string(n)}, {}, &recorder);
-        EXPECT_EQ(beads.beads, std::max<std::size_t>(1, (2 * 556 + std::size_t(n)) / (2 * n)));
+        EXPECT_EQ(beads.record.beads,
+                  std::max<std::size_t>(1, (2 * 556 + std::size_t(n)) / (2 * n)));
         std::size_t least = 1000, most = 0;
         for (const auto& members : recorder.members) {
             least = std::min(least, members.size());
@@ -122,9 +124,9 @@ TEST(CoarseGrain, LaterRulesWinAndAtomsStay)
         EXPECT_EQ(ball.center, atomOf(s, ball).position);
         ++atoms;
     }
-    EXPECT_EQ(atoms, beads.balls.size() - beads.beads);
-    EXPECT_EQ(beads.beadAtoms + atoms, 327u);
-    EXPECT_EQ(beadsOf(s, {"residue", "atom"}).beads, 0u);
+    EXPECT_EQ(atoms, beads.balls.size() - beads.record.beads);
+    EXPECT_EQ(beads.record.beadAtoms + atoms, 327u);
+    EXPECT_EQ(beadsOf(s, {"residue", "atom"}).record.beads, 0u);
 }
 
 TEST(CoarseGrain, HydrogensGoWithTheirAtom)
@@ -132,8 +134,8 @@ TEST(CoarseGrain, HydrogensGoWithTheirAtom)
     const Structure s = readStructure(dataFile("1d3z.pdb.gz"));
     Recorder recorder;
     const BallSet beads = beadsOf(s, {"residue"}, {}, &recorder);
-    EXPECT_EQ(beads.beadAtoms, 1231u);
-    EXPECT_EQ(beads.beads, 146u); // 76 backbones, 6 glycines without side chain
+    EXPECT_EQ(beads.record.beadAtoms, 1231u);
+    EXPECT_EQ(beads.record.beads, 146u); // 76 backbones, 6 glycines without side chain
     for (const auto& members : recorder.members) {
         bool ca = false, ha = false, hb = false;
         for (const std::size_t i : members) {
@@ -150,12 +152,13 @@ TEST(CoarseGrain, AssembliesAndGroupsTakeBeads)
 {
     const Structure s = readStructure(dataFile("1a8o.cif.gz"));
     SelectOptions options;
-    options.assembly = "1";
-    options.groups = {{"head", "A/151-180", {}}, {"tail", "A/181-230", {}}};
-    const BallSet beads = beadsOf(s, {"residue"}, options);
+    options.assembly.name = "1";
+    LabelOptions labels;
+    labels.groups = {{"head", "A/151-180", {}}, {"tail", "A/181-230", {}}};
+    const BallSet beads = beadsOf(s, {"residue"}, options, nullptr, labels);
     ASSERT_EQ(beads.balls.size(), 272u);
-    EXPECT_EQ(beads.beads, 272u);
-    EXPECT_EQ(beads.beadAtoms, 1112u);
+    EXPECT_EQ(beads.record.beads, 272u);
+    EXPECT_EQ(beads.record.beadAtoms, 1112u);
     EXPECT_EQ(beads.labels->groups[0].balls + beads.labels->groups[1].balls, 272u);
     const BallSet unit = beadsOf(s, {"residue"});
     for (std::size_t i = 0; i < 136; ++i) {
@@ -201,7 +204,7 @@ TEST(CoarseGrain, WatersIonsAndLigands)
     options.select = "*;!polymer";
     const BallSet ligands = selectBalls(s, options);
     const BallSet beads = beadsOf(s, {"residue"}, options);
-    EXPECT_EQ(beads.beadAtoms, ligands.balls.size());
+    EXPECT_EQ(beads.record.beadAtoms, ligands.balls.size());
     // Two zinc ions, and two ATP of 31 atoms in clusters of about four.
     EXPECT_EQ(ligands.balls.size(), 64u);
     EXPECT_EQ(beads.balls.size(), 2u + 2u * 8u);

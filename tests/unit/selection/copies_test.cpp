@@ -15,8 +15,8 @@ using openvdb::Vec3d;
 SelectOptions copies(const std::string& text)
 {
     SelectOptions options;
-    options.assembly = "1";
-    options.copies = parseCopies(text);
+    options.assembly.name = "1";
+    options.assembly.copies = parseCopies(text);
     return options;
 }
 

@@ -79,16 +79,18 @@ TEST_F(GroupsFile, BadOnesAreRefused)
     EXPECT_THROW(readGroups(testing::TempDir()), Error);
 }
 
-BallLabels labelled(const SelectOptions& options, const std::string& file = "/4at1.ent.gz")
+BallLabels labelled(const LabelOptions& labels, const std::string& file = "/4at1.ent.gz",
+                    const SelectOptions& options = {})
 {
-    const BallSet out = selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + file), options);
+    const BallSet out =
+        selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + file), options, labels);
     EXPECT_EQ(out.labels->chainOf.size(), out.balls.size());
     return *out.labels;
 }
 
 TEST(Labels, GroupsByChainEntityCopyAndResidues)
 {
-    SelectOptions options;
+    LabelOptions options;
     options.groupBy = parseGroupBy("chain");
     const BallLabels chains = labelled(options);
     ASSERT_EQ(chains.groups.size(), 4u); // two catalytic, two regulatory
@@ -104,17 +106,18 @@ TEST(Labels, GroupsByChainEntityCopyAndResidues)
 
     // Names and places are of the file, whatever is selected.
     EXPECT_EQ(entities.groups[1].place, 1);
-    options.select = "chain B+D";
-    const BallLabels some = labelled(options);
+    SelectOptions select;
+    select.select = "chain B+D";
+    const BallLabels some = labelled(options, "/4at1.ent.gz", select);
     EXPECT_EQ(some.chainPlaces, (std::vector<std::int32_t>{1, 3}));
     ASSERT_EQ(some.groups.size(), 1u);
     EXPECT_EQ(some.groups[0].name, "entity 2");
     EXPECT_EQ(some.groups[0].place, 1);
-    options.select.clear();
+    select.select.clear();
 
     options.groupBy = parseGroupBy("copy");
-    options.assembly = "1";
-    const BallLabels copies = labelled(options, "/1a8o.cif.gz");
+    select.assembly.name = "1";
+    const BallLabels copies = labelled(options, "/1a8o.cif.gz", select);
     ASSERT_EQ(copies.groups.size(), 2u);
     EXPECT_EQ(copies.groups[0].balls, copies.groups[1].balls);
     EXPECT_EQ(copies.groups[1].name, "copy 2");
@@ -123,7 +126,6 @@ TEST(Labels, GroupsByChainEntityCopyAndResidues)
     EXPECT_EQ(copies.chainPlaces, (std::vector<std::int32_t>{0, 1}));
     EXPECT_EQ(copies.groups[1].place, 1);
 
-    options.assembly.reset();
     options.groupBy = parseGroupBy("residues:20");
     const BallLabels blocks = labelled(options, "/1crn.pdb");
     ASSERT_EQ(blocks.groups.size(), 3u); // 46 residues
@@ -143,9 +145,9 @@ TEST(Labels, BlocksOfResiduesBelowOne)
         text +=
             formatted("ATOM  %5zu  CA  GLY A%4d    %8.3f   0.000   0.000  1.00  0.00           C\n",
                       i + 1, numbers[i], 4.0 * double(i));
-    SelectOptions options;
+    LabelOptions options;
     options.groupBy = parseGroupBy("residues:10");
-    const BallSet atoms = selectBalls(parseStructure(text + "END\n", "a.pdb"), options);
+    const BallSet atoms = selectBalls(parseStructure(text + "END\n", "a.pdb"), {}, options);
     std::vector<std::string> names;
     for (const Group& group : atoms.labels->groups) names.push_back(group.name);
     EXPECT_EQ(names, (std::vector<std::string>{"A/-19--10", "A/-9-0", "A/1-10", "A/11-20"}));
@@ -153,7 +155,7 @@ TEST(Labels, BlocksOfResiduesBelowOne)
 
 TEST(Labels, LaterRulesWinAndSaySo)
 {
-    SelectOptions options;
+    LabelOptions options;
     options.groups = {{"all", "A", {}}, {"helix", "A/7-19", {}}};
     const BallLabels labels = labelled(options, "/1crn.pdb");
     EXPECT_GT(labels.groups[0].balls, 150u);

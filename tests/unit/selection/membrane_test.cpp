@@ -65,8 +65,8 @@ TEST(Membrane, IsThatOfDummies)
                 lines.add(z < 0.0 ? "N" : "O", "DUM", ++number, {4.0 * i, 4.0 * j, z});
     const BallSet atoms = lines.read();
     EXPECT_EQ(atoms.balls.size(), 1u);
-    ASSERT_TRUE(atoms.membrane);
-    EXPECT_LT(degreesBetween(*atoms.membrane, lines.turned({0, 0, 1})), 0.1);
+    ASSERT_TRUE(atoms.record.membrane);
+    EXPECT_LT(degreesBetween(*atoms.record.membrane, lines.turned({0, 0, 1})), 0.1);
 }
 
 /// Two leaves of lipids, or lipids that lie in all directions.
@@ -88,14 +88,14 @@ TEST(Membrane, IsThatOfLipids)
 {
     const Lines lines = lipids(0.4, true);
     const BallSet atoms = lines.read();
-    ASSERT_TRUE(atoms.membrane);
-    EXPECT_LT(degreesBetween(*atoms.membrane, lines.turned({0, 0, 1})), 3.0);
-    EXPECT_FALSE(lipids(0.4, false).read().membrane);
+    ASSERT_TRUE(atoms.record.membrane);
+    EXPECT_LT(degreesBetween(*atoms.record.membrane, lines.turned({0, 0, 1})), 3.0);
+    EXPECT_FALSE(lipids(0.4, false).read().record.membrane);
 }
 
 TEST(Membrane, OfAProteinIsNone)
 {
-    EXPECT_FALSE(readAtoms(std::string(MOLSURF_TEST_DATA) + "/1crn.pdb").membrane);
+    EXPECT_FALSE(readAtoms(std::string(MOLSURF_TEST_DATA) + "/1crn.pdb").record.membrane);
 }
 
 } // namespace

@@ -26,7 +26,7 @@ TEST(Memory, ErrorsNameWhatTheyAreGiven)
 {
     const auto message = [](FileContent file, std::size_t most) {
         SelectOptions select;
-        select.maxInput = most;
+        select.limits.maxInput = most;
         try {
             readAtoms(std::move(file), select);
         } catch (const Error& e) {

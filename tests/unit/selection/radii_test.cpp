@@ -34,7 +34,6 @@ TEST(Radii, OfAtomsWithoutAFileAreThoseOfTheFile)
 {
     for (const char* set : {"bondi", "protor", "gemmi"}) {
         SelectOptions options;
-        options.names = true;
         options.radii = set;
         const BallSet read = readAtoms(dataFile("1crn.pdb"), options);
         std::vector<std::string> names, residues, elements;
@@ -176,8 +175,9 @@ TEST(Radii, UnknownElementsTakeThatOfCarbonWithOneWarning)
     ASSERT_EQ(selection.balls.size(), 3u);
     EXPECT_EQ(selection.balls[1].radius, 1.7);
     EXPECT_EQ(selection.balls[2].radius, 1.7);
-    ASSERT_EQ(selection.warnings.size(), 1u);
-    EXPECT_HAS(selection.warnings[0], "Pm (1 atom), unknown element of atom \"Q1\" (1 atom)");
+    ASSERT_EQ(selection.record.warnings.size(), 1u);
+    EXPECT_HAS(selection.record.warnings[0],
+               "Pm (1 atom), unknown element of atom \"Q1\" (1 atom)");
 }
 
 TEST(Radii, WhatAFileLacksComesFromBondi)
@@ -189,8 +189,8 @@ TEST(Radii, WhatAFileLacksComesFromBondi)
     EXPECT_EQ(selection.balls[0].radius, 1.7);
     EXPECT_EQ(selection.balls[1].radius, 2.0);
     EXPECT_EQ(selection.balls[2].radius, 3.0);
-    ASSERT_EQ(selection.warnings.size(), 1u);
-    EXPECT_HAS(selection.warnings[0], "lacks C (1 atom): bondi was used");
+    ASSERT_EQ(selection.record.warnings.size(), 1u);
+    EXPECT_HAS(selection.record.warnings[0], "lacks C (1 atom): bondi was used");
 }
 
 TEST(Radii, AZeroInAFileLeavesTheAtomOut)
@@ -200,8 +200,8 @@ TEST(Radii, AZeroInAFileLeavesTheAtomOut)
     options.radii = radii.path();
     const BallSet selection = selectBalls(readStructure(file.path()), options);
     EXPECT_EQ(selection.balls.size(), 2u);
-    ASSERT_EQ(selection.drops.size(), 1u);
-    EXPECT_EQ(selection.drops[0].reason, "zero radius");
+    ASSERT_EQ(selection.record.drops.size(), 1u);
+    EXPECT_EQ(selection.record.drops[0].reason, "zero radius");
 }
 
 // Every radius of the publications, written once more.

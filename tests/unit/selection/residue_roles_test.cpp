@@ -136,10 +136,11 @@ TEST(Molecule, OfAnAssemblyIsDecidedInTheAssembly)
 {
     SelectOptions options;
     EXPECT_EQ(selectBalls(withCopy(17.0), options).balls.size(), 2u);
-    options.assembly = "1";
+    options.assembly.name = "1";
     EXPECT_EQ(selectBalls(withCopy(17.0), options).balls.size(), 6u);
     EXPECT_EQ(selectBalls(withCopy(10.0), options).balls.size(), 4u);
-    options.copies = parseCopies("1"); // what counts does not change with the copies that are used
+    options.assembly.copies =
+        parseCopies("1"); // what counts does not change with the copies that are used
     EXPECT_EQ(selectBalls(withCopy(17.0), options).balls.size(), 3u);
 }
 
@@ -162,7 +163,7 @@ TEST(Molecule, OfUsedAndDroppedAtomsIsTheFile)
             options.waters = waters;
             const BallSet chosen = selectBalls(s, options);
             std::size_t all = chosen.balls.size();
-            for (const Excluded& drop : chosen.drops) all += drop.count;
+            for (const Excluded& drop : chosen.record.drops) all += drop.count;
             EXPECT_EQ(all, s.atoms.size()) << describeSelection(s, chosen);
         }
     EXPECT_HAS(describeSelection(s, selectBalls(s, {})), "1 particle that is no atom, 1 water");

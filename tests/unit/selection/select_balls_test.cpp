@@ -19,7 +19,7 @@ Structure readText(const std::string& name, const std::string& text)
 std::map<std::string, std::size_t> dropsOf(const BallSet& selection)
 {
     std::map<std::string, std::size_t> drops;
-    for (const Excluded& drop : selection.drops) drops[drop.reason] = drop.count;
+    for (const Excluded& drop : selection.record.drops) drops[drop.reason] = drop.count;
     return drops;
 }
 
@@ -30,8 +30,8 @@ TEST(SelectBalls, GivesEveryAtomItsBall)
     const Structure s = readStructure(dataFile("1crn.pdb"));
     const BallSet selection = selectBalls(s, {});
     ASSERT_EQ(selection.balls.size(), 327u);
-    EXPECT_TRUE(selection.drops.empty());
-    EXPECT_TRUE(selection.warnings.empty());
+    EXPECT_TRUE(selection.record.drops.empty());
+    EXPECT_TRUE(selection.record.warnings.empty());
     EXPECT_EQ(selection.placement.begin, (std::vector<std::size_t>{0, 327}));
     for (std::size_t i = 0; i < 327; ++i) {
         EXPECT_EQ(selection.balls[i].atom, static_cast<std::int32_t>(i));
@@ -62,9 +62,10 @@ TEST(SelectBalls, DropsExactDuplicatesAndWarns)
     EXPECT_EQ(selection.balls[0].atom, 0);
     EXPECT_EQ(selection.balls[1].atom, 1); // another radius
     EXPECT_EQ(selection.balls[2].atom, 3);
-    ASSERT_EQ(selection.warnings.size(), 1u);
-    EXPECT_EQ(selection.warnings[0], "3 atoms lie exactly where another of the same radius lies: "
-                                     "dropped; the first is atom 3");
+    ASSERT_EQ(selection.record.warnings.size(), 1u);
+    EXPECT_EQ(selection.record.warnings[0],
+              "3 atoms lie exactly where another of the same radius lies: "
+              "dropped; the first is atom 3");
 }
 
 TEST(SelectBalls, DropsLigandsAndHydrogensOnRequest)
@@ -84,10 +85,10 @@ TEST(SelectBalls, UsesOneModel)
 {
     const Structure s = readStructure(dataFile("1d3z.pdb.gz"));
     SelectOptions options;
-    EXPECT_EQ(selectBalls(s, options).model, 1);
+    EXPECT_EQ(selectBalls(s, options).record.model, 1);
     options.model = 4;
     const BallSet selection = selectBalls(s, options);
-    EXPECT_EQ(selection.model, 4);
+    EXPECT_EQ(selection.record.model, 4);
     EXPECT_EQ(selection.balls[0].atom, 3 * 1231);
     EXPECT_EQ(describeSelection(s, selection),
               "1d3z.pdb.gz: PDB, 10 models, 1231 atoms in model 4; used 1231 atoms");
@@ -101,7 +102,7 @@ TEST(SelectBalls, TheSelectionsModelMustAgree)
     const Structure s = readStructure(dataFile("1d3z.pdb.gz"));
     SelectOptions options;
     options.select = "/2/A/1-10";
-    EXPECT_EQ(selectBalls(s, options).model, 2);
+    EXPECT_EQ(selectBalls(s, options).record.model, 2);
     options.model = 1;
     EXPECT_HAS(errorOf(ErrorKind::Usage, [&] { selectBalls(s, options); }), "names model 2");
     options.model = 0;
@@ -158,10 +159,10 @@ TEST(SelectBalls, RefusesAMoleculeLargerThanAnyGrid)
 
 TEST(SelectBalls, TellsHowFarPlacesAreRounded)
 {
-    EXPECT_TRUE(selectBalls(readText("a.xyzr", "9000 0 0 1\n"), {}).warnings.empty());
+    EXPECT_TRUE(selectBalls(readText("a.xyzr", "9000 0 0 1\n"), {}).record.warnings.empty());
     const BallSet far = selectBalls(readText("a.xyzr", "0 -800000.11 0 1\n"), {});
-    ASSERT_EQ(far.warnings.size(), 1u);
-    EXPECT_HAS(far.warnings[0], "rounded to 0.1 Å");
+    ASSERT_EQ(far.record.warnings.size(), 1u);
+    EXPECT_HAS(far.record.warnings[0], "rounded to 0.1 Å");
 }
 
 TEST(SelectBalls, PassesOnTheWarningsOfTheFile)
@@ -170,7 +171,7 @@ TEST(SelectBalls, PassesOnTheWarningsOfTheFile)
         "ATOM      1  CA  GLY A   1       1.000   2.000   3.000  1.00  0.00           C\n";
     const BallSet selection =
         selectBalls(readText("a.pdb", "MTRIX1   2  0.000000 what\n" + atom), {});
-    ASSERT_EQ(selection.warnings.size(), 1u);
+    ASSERT_EQ(selection.record.warnings.size(), 1u);
 }
 
 // Cancelled at each question that a reading asks: between all of its stages.

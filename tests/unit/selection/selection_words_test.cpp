@@ -302,73 +302,74 @@ TEST(Words, WarnOfAnAlternativeWithoutAtoms)
     EXPECT_TRUE(matchAtoms(codes(), "resn ZN or resn ALA").warnings.empty());
 }
 
+std::vector<char> from(const std::vector<char>& atoms, const Model& model)
+{
+    return std::vector<char>(atoms.begin() + std::ptrdiff_t(model.begin),
+                             atoms.begin() + std::ptrdiff_t(model.end));
+}
+
 // Of a trajectory's frames the first decides, for words that ask for places alone.
-TEST(Words, AreSettledByTheFirstModel)
+TEST(Words, AreKeptFromTheFirstModel)
 {
     Structure s = readStructure(dataFile("1d3z.pdb.gz"));
     const Model first = s.models[0], second = s.models[1];
     s.models[2].end -= 1; // of another size
-    SelectOptions options;
-    options.select = "same x as index 5";
-    options.groups = {{"near", "chain A within 4 of resid 3", {}}, {"all", "name CA", {}}};
-    options.resolutions = {{"z < 3", 5.0}};
-    resolveSelections(options, first, s);
-    EXPECT_EQ(s.settled.size(), 4u);
-    for (const auto& [phrase, match] : s.settled) {
-        EXPECT_EQ(match->byPlace, phrase != "name CA") << phrase;
-        if (!match->byPlace) continue;
-        const auto at = [&, &all = match->atoms](std::size_t i) {
-            return all.begin() + std::ptrdiff_t(i);
-        };
-        EXPECT_GT(std::count(at(first.begin), at(first.end), 1), 0) << phrase;
-        EXPECT_TRUE(std::equal(at(first.begin), at(first.end), at(second.begin))) << phrase;
-        EXPECT_FALSE(std::equal(at(s.models[2].begin), at(s.models[2].end), at(first.begin)))
-            << phrase;
+    const std::vector<std::string> byPlace = {"same x as index 5", "chain A within 4 of resid 3",
+                                              "z < 3"};
+    Selections kept(s);
+    kept.keep(byPlace, first);
+    kept.keep({"name CA", ""}, first);
+    EXPECT_FALSE(kept.match("name CA").byPlace);
+    for (const std::string& phrase : byPlace) {
+        const AtomMatch match = kept.match(phrase);
+        EXPECT_TRUE(match.byPlace) << phrase;
+        const std::vector<char> own = from(match.atoms, first);
+        EXPECT_GT(std::count(own.begin(), own.end(), 1), 0) << phrase;
+        EXPECT_EQ(own, from(match.atoms, second)) << phrase;
+        const std::vector<char> other = from(match.atoms, s.models[2]);
+        EXPECT_FALSE(std::equal(other.begin(), other.end(), own.begin())) << phrase;
     }
-    forgetPlaces(s);
-    EXPECT_EQ(s.settled.size(), 1u);
-    Structure other = readStructure(dataFile("1d3z.pdb.gz"));
-    const AtomMatch own = matchAtoms(other, options.select);
-    other.models[2].end -= 1; // no other has its size
-    resolveSelections(options, other.models[2], other);
-    EXPECT_EQ(other.settled.at(options.select)->atoms, own.atoms);
+    kept.forgetPlaces();
+    EXPECT_EQ(kept.match(byPlace[1]).atoms, matchAtoms(s, byPlace[1]).atoms);
+    s.atoms.front().name = "CA"; // not looked at
+    EXPECT_EQ(kept.match("name CA").atoms[0], 0);
+    EXPECT_EQ(matchAtoms(s, "name CA").atoms[0], 1);
 }
 
-// Whichever model is asked for: all others have its atoms.
-TEST(Words, AreSettledByALaterModel)
+// Whichever model is asked for: all others of its size have its atoms.
+TEST(Words, AreKeptFromALaterModel)
 {
     Structure s = readStructure(dataFile("1d3z.pdb.gz"));
     const Model own = s.models[3];
-    SelectOptions options;
-    options.select = "chain A within 4 of resid 3";
-    const std::vector<char> before = matchAtoms(s, options.select).atoms;
-    resolveSelections(options, own, s);
-    const std::vector<char>& after = s.settled.at(options.select)->atoms;
-    const auto from = [](const std::vector<char>& atoms, const Model& model) {
-        return std::vector<char>(atoms.begin() + std::ptrdiff_t(model.begin),
-                                 atoms.begin() + std::ptrdiff_t(model.end));
-    };
+    const std::string near = "chain A within 4 of resid 3";
+    const std::vector<char> before = matchAtoms(s, near).atoms;
+    Selections kept(s);
+    kept.keep({near}, own);
+    const std::vector<char> after = kept.match(near).atoms;
     EXPECT_NE(from(before, s.models[0]), from(before, own));
     for (const Model& model : s.models) EXPECT_EQ(from(after, model), from(before, own));
+    s.models[2].end -= 1; // no other has its size
+    Selections alone(s);
+    alone.keep({near}, s.models[2]);
+    EXPECT_EQ(alone.match(near).atoms, before);
 }
 
 // What one frame warns of, and refuses, the next ones do, too.
 TEST(Words, AreMatchedOnceWithTheirModelsAndWarnings)
 {
     Structure s = readStructure(dataFile("1d3z.pdb.gz"));
-    SelectOptions options;
-    options.select = "/2/A or resname ALA XYZ";
-    options.pocketAt = "chain Z"; // matches nothing
-    const AtomMatch before = matchAtoms(s, options.select);
+    const std::string select = "/2/A or resname ALA XYZ";
+    const AtomMatch before = matchAtoms(s, select);
     EXPECT_EQ(before.models, std::vector<int>{2});
     ASSERT_EQ(before.warnings.size(), 1u);
-    resolveSelections(options, s.models[0], s);
-    EXPECT_EQ(s.settled.size(), 1u);
+    Selections kept(s);
+    kept.keep({select, "chain Z"}, s.models[0]);
     s.atoms.front().name = "CB"; // not looked at
-    const AtomMatch after = matchAtoms(s, options.select);
+    const AtomMatch after = kept.match(select);
     EXPECT_EQ(after.atoms, before.atoms);
     EXPECT_EQ(after.models, before.models);
     EXPECT_EQ(after.warnings, before.warnings);
+    EXPECT_THROW(kept.match("chain Z"), Error); // matches nothing
 }
 
 TEST(Words, RefuseDistancesWhereAtomsAreFarAway)

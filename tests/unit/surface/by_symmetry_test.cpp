@@ -80,9 +80,9 @@ std::vector<Case> cases()
 SelectOptions assembly(bool bySymmetry, const SurfaceOptions& surface)
 {
     SelectOptions options;
-    options.assembly = "1";
-    options.bySymmetry = bySymmetry;
-    options.surroundings = surroundingsOf(surface);
+    options.assembly.name = "1";
+    options.assembly.bySymmetry = bySymmetry;
+    options.assembly.surroundings = surroundingsOf(surface);
     return options;
 }
 
@@ -272,8 +272,8 @@ TEST(SymmetricUnit, RefusesWhatIsNoGroup)
     for (const auto& operators : {some, bent}) {
         s.assemblies = {assemblyOf(operators)};
         SelectOptions options;
-        options.assembly = "1";
-        options.bySymmetry = true;
+        options.assembly.name = "1";
+        options.assembly.bySymmetry = true;
         try {
             selectBalls(s, options);
             ADD_FAILURE() << "expected an Error";
@@ -380,12 +380,13 @@ TEST(SymmetricUnit, GroupsAddUp)
     s.residues[1].chain = s.residues[1].asym = 1;
     s.assemblies = {assemblyOf(dihedral(3))};
     SelectOptions select = assembly(true, options);
-    select.groups = {{"b", "B", {}}};
-    const BallSet unit = selectBalls(s, select);
+    LabelOptions labels;
+    labels.groups = {{"b", "B", {}}};
+    const BallSet unit = selectBalls(s, select, labels);
     EXPECT_EQ(unit.labels->chains.size(), 2u); // images have their names
     const MolecularSurface a = makeUnitSurface(unit, options);
-    select.bySymmetry = false;
-    const MolecularSurface b = makeSurface(selectBalls(s, select), options);
+    select.assembly.bySymmetry = false;
+    const MolecularSurface b = makeSurface(selectBalls(s, select, labels), options);
     ASSERT_EQ(a.report.groups.size(), b.report.groups.size());
     double area = 0.0;
     for (std::size_t g = 0; g < a.report.groups.size(); ++g) {
@@ -410,10 +411,11 @@ TEST(SymmetricUnit, InterfacesCountTheWhole)
         Structure s = blob({9.0, 1.0, 1.0}, 6.0, 120, 3);
         s.assemblies = {assemblyOf(dihedral(3))};
         SelectOptions select = assembly(true, options);
-        select.groupBy = parseGroupBy("copy");
-        const Report a = makeSurface(selectBalls(s, select), options).report;
-        select.bySymmetry = false;
-        const Report b = makeSurface(selectBalls(s, select), options).report;
+        LabelOptions labels;
+        labels.groupBy = parseGroupBy("copy");
+        const Report a = makeSurface(selectBalls(s, select, labels), options).report;
+        select.assembly.bySymmetry = false;
+        const Report b = makeSurface(selectBalls(s, select, labels), options).report;
         double found = 0.0, expected = 0.0;
         std::size_t count = 0;
         for (const Report::Interface& i : a.interfaces) {
@@ -437,10 +439,9 @@ TEST(SymmetricUnit, ContactsAreThoseOfItsBalls)
     Structure s = blob({9.0, 1.0, 1.0}, 6.0, 120, 3);
     s.assemblies = {assemblyOf(dihedral(3))};
     SelectOptions select = assembly(true, options);
-    select.names = true;
     const BallSet unit = selectBalls(s, select);
     const Table table = contactTable(unit, ContactLevel::Atom, makeUnitSurface(unit, options));
-    select.bySymmetry = false;
+    select.assembly.bySymmetry = false;
     const MolecularSurface whole = makeSurface(selectBalls(s, select), options);
     double expected = 0.0, found = 0.0;
     std::size_t count = 0, across = 0;
@@ -519,7 +520,7 @@ TEST(SymmetricUnit, SurfacesAreThoseOfTheWhole)
     EXPECT_TRUE(checkTopology(whole.mesh, Progress()).closed);
 
     SelectOptions select = assembly(false, options);
-    select.instances = true;
+    select.assembly.instances = true;
     const BallSet prototype = selectBalls(s, select);
     const MolecularSurface copies = makeSurface(prototype, options);
     const MolecularSurface one = makeUnitSurface(prototype, options);

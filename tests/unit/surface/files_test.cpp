@@ -172,11 +172,11 @@ TEST(Files, HoldWhatApbsReads)
     const Folder folder;
     std::ofstream(folder / "ion.pqr") << "ATOM 1 C ION 1 0.0 0.0 0.0 1.0 2.0\n"
                                          "ATOM 2 C ION 2 3.0 0.0 0.0 -0.5 1.0\n";
-    SelectOptions select;
-    select.charges = true;
+    LabelOptions labels;
+    labels.charges = true;
     SurfaceOptions options;
     options.kind = SurfaceKind::SolventExcluded;
-    BallSet atoms = readAtoms(folder / "ion.pqr", select);
+    BallSet atoms = Molecule(folder / "ion.pqr").balls({}, labels);
     MolecularSurface surface = makeSurface(atoms, options);
     surface.report.input = "my ion.pqr";
     const ShownSurface shown{&atoms, &surface, &options, ""};
@@ -359,8 +359,8 @@ TEST(Files, WriteAPageOfLayersInOneScale)
 TEST(Files, WriteAPageOfCopiesThatNamesTheAtoms)
 {
     SelectOptions select;
-    select.assembly = "1";
-    select.instances = true;
+    select.assembly.name = "1";
+    select.assembly.instances = true;
     SurfaceOptions options;
     options.kind = SurfaceKind::VanDerWaals;
     options.voxel = 1.0;

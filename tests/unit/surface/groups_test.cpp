@@ -54,7 +54,7 @@ TEST(Groups, ColoursWithoutWhatTheyShowAreRefused)
             ADD_FAILURE() << int(by) << " was taken";
         } catch (const Error& e) {
             EXPECT_EQ(e.kind(), ErrorKind::Usage);
-            EXPECT_NE(std::string(e.what()).find("SelectOptions::"), std::string::npos) << e.what();
+            EXPECT_NE(std::string(e.what()).find("LabelOptions::"), std::string::npos) << e.what();
         }
     }
 }
@@ -116,10 +116,11 @@ TEST(Groups, ShareAreaAndVolumeOfTwoBalls)
 TEST(Groups, CopiesHaveEqualParts)
 {
     SelectOptions select;
-    select.assembly = "1";
-    select.groupBy = GroupBy{GroupBy::Kind::Copy};
+    select.assembly.name = "1";
+    LabelOptions labels;
+    labels.groupBy = GroupBy{GroupBy::Kind::Copy};
     const BallSet atoms =
-        selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/1a8o.cif.gz"), select);
+        selectBalls(readStructure(std::string(MOLSURF_TEST_DATA) + "/1a8o.cif.gz"), select, labels);
     Progress progress;
     const MolecularSurface result = makeSurface(atoms, SurfaceOptions(), &progress);
     ASSERT_EQ(result.report.groups.size(), 2u);

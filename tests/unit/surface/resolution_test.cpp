@@ -40,7 +40,7 @@ TEST(Resolution, RatesAreThoseOfTheLastRule)
     EXPECT_EQ(counts[0], 0u);
     EXPECT_GT(counts[1], 40u);
     EXPECT_GT(counts[2], 200u);
-    EXPECT_FALSE(atoms.warnings.empty()); // the first rule has no ball
+    EXPECT_FALSE(atoms.record.warnings.empty()); // the first rule has no ball
     EXPECT_TRUE(crambin({}).decays.empty());
 }
 

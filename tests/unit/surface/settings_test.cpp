@@ -143,15 +143,15 @@ TEST(Settings, AColorSaysWhatElseItNeeds)
     Settings settings;
     row("color").set(settings, {"bfactor"});
     EXPECT_EQ(settings.options.color, ColorBy::Value);
-    EXPECT_EQ(settings.atoms.valueBy->kind, ValueBy::Kind::BFactor);
+    EXPECT_EQ(settings.labels.valueBy->kind, ValueBy::Kind::BFactor);
     row("color").set(settings, {"entity"});
     EXPECT_EQ(textOf(*settings.colorGroups), "entity");
-    EXPECT_FALSE(settings.atoms.valueBy);
+    EXPECT_FALSE(settings.labels.valueBy);
     row("color").set(settings, {"plain=#102030"});
     EXPECT_EQ(settings.options.color, ColorBy::Plain);
-    EXPECT_EQ((*settings.atoms.plainColor)[1], 0x20);
+    EXPECT_EQ((*settings.labels.plainColor)[1], 0x20);
     row("color").set(settings, {"Table=Values.csv"});
-    EXPECT_EQ(settings.atoms.valueBy->file, "Values.csv");
+    EXPECT_EQ(settings.labels.valueBy->file, "Values.csv");
     EXPECT_EQ(row("color").file("table=Values.csv"), 6u);
 }
 

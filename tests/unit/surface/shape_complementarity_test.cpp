@@ -103,21 +103,24 @@ TEST(Fit, OfTwoChainsIsTheSameInEveryPose)
 TEST(Fit, IsInTheReport)
 {
     SelectOptions select;
-    select.assembly = "1";
-    select.groupBy = parseGroupBy("copy");
+    select.assembly.name = "1";
+    LabelOptions labels;
+    labels.groupBy = parseGroupBy("copy");
     SurfaceOptions options;
     options.kind = SurfaceKind::SolventAccessible;
     options.grid = false;
     options.interfaces = true;
     const std::string path = std::string(MOLSURF_TEST_DATA) + "/1a8o.cif.gz";
-    const Report whole = makeSurface(readAtoms(path, select, options.probe), options).report;
+    const Report whole =
+        makeSurface(Molecule(path).balls(select, labels, options.probe), options).report;
     ASSERT_EQ(whole.interfaces.size(), 1u);
     const Report::Interface::Fit& fit = whole.interfaces[0].fit;
     EXPECT_GT(fit.shape, 0.5);
     EXPECT_LT(fit.shape, 0.8);
-    select.bySymmetry = true;
-    select.surroundings = surroundingsOf(options);
-    const Report unit = makeSurface(readAtoms(path, select, options.probe), options).report;
+    select.assembly.bySymmetry = true;
+    select.assembly.surroundings = surroundingsOf(options);
+    const Report unit =
+        makeSurface(Molecule(path).balls(select, labels, options.probe), options).report;
     ASSERT_EQ(unit.interfaces.size(), 1u);
     EXPECT_NEAR(unit.interfaces[0].fit.shape, fit.shape, 0.005);
     EXPECT_NEAR(unit.interfaces[0].fit.gapVolume, fit.gapVolume, 0.1);

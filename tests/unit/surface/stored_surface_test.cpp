@@ -28,7 +28,7 @@ StoredSurface stored(const openvdb::GridPtrVec& grids)
     Progress progress;
     SurfaceOptions options;
     options.curvatureTotals = true;
-    return storedSurface(grids, openvdb::MetaMap(), options, SelectOptions::Coloring(), progress);
+    return storedSurface(grids, openvdb::MetaMap(), options, Coloring(), progress);
 }
 
 // Coordinates of 32 bits are 0.06 Å apart there.

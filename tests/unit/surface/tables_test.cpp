@@ -17,9 +17,7 @@ namespace
 
 BallSet named(const std::string& file)
 {
-    SelectOptions select;
-    select.names = true;
-    return readAtoms(std::string(MOLSURF_TEST_DATA) + "/" + file, select);
+    return readAtoms(std::string(MOLSURF_TEST_DATA) + "/" + file);
 }
 
 SurfaceOptions exact()

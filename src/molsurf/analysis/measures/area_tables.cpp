@@ -404,7 +404,8 @@ void addOrigin(const BallSet& atoms, const std::string& kind, double probe, Tabl
             for (double& number : *numbers) number = digitsThatHold(number);
     table.columns.push_back({"surface", Texts(rows, kind)});
     table.columns.push_back({"probe_A", Numbers(rows, probe)});
-    table.columns.push_back({"radii", Texts(rows, atoms.radii.empty() ? "input" : atoms.radii)});
+    table.columns.push_back(
+        {"radii", Texts(rows, atoms.record.radii.empty() ? "input" : atoms.record.radii)});
 }
 
 std::vector<double> residueAreasOfBalls(const BallSet& atoms, const std::vector<double>& ballAreas)

@@ -102,7 +102,7 @@ Table Report::Pockets::table(const BallSet& atoms) const
 {
     PocketColumns columns;
     for (const Pocket& pocket : list) columns.add(atoms, pocket);
-    if (!atoms.pocketAt.empty() && list.empty()) columns.add(atoms, {}); // it is closed
+    if (isChosen && list.empty()) columns.add(atoms, {}); // it is closed
     Table table{"pockets", {}};
     columns.moveTo(table);
     const std::size_t rows = std::get<std::vector<std::int64_t>>(table.columns[0].values).size();

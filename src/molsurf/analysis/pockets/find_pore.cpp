@@ -67,7 +67,7 @@ std::vector<Vec3d> principalAxes(const std::vector<Ball>& balls)
 /// The place of an end: that itself if no ball holds it; else, of those within 5 Å, the one with
 /// the most room, less 0.2 Å for each Å of way.
 /// @throws Error(ErrorKind::Input) if a ball holds an end that is a point
-Vec3d placeOf(const BallSet::PoreWay::End& end, const std::vector<Ball>& balls,
+Vec3d placeOf(const SearchPlaces::End& end, const std::vector<Ball>& balls,
               const Clearance& clearance)
 {
     const double room = clearance.at(end.place);
@@ -554,7 +554,7 @@ void addLining(const Clearance& clearance, Pore::Station& station)
         station.lining.push_back(std::size_t(ball));
 }
 
-Pore findPore(const std::vector<Ball>& balls, const BallSet::PoreWay& asked,
+Pore findPore(const std::vector<Ball>& balls, const SearchPlaces::PoreWay& asked,
               const Progress& progress)
 {
     const Clearance clearance(balls);
@@ -562,7 +562,7 @@ Pore findPore(const std::vector<Ball>& balls, const BallSet::PoreWay& asked,
     if (asked.ends.empty()) {
         found = waysAlong(balls, asked.axis, progress);
     } else {
-        for (const BallSet::PoreWay::End& end : asked.ends) checkNear(end.place, balls);
+        for (const SearchPlaces::End& end : asked.ends) checkNear(end.place, balls);
         found = waysBetweenEnds(
             balls,
             {placeOf(asked.ends[0], balls, clearance), placeOf(asked.ends[1], balls, clearance)},

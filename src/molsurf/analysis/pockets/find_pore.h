@@ -28,7 +28,7 @@ constexpr double stationSpacing = 0.25;
 /// @param[in] balls  at least one, every one finite
 /// @param[in] way    ends, if it has any, are apart
 /// @throws Error(ErrorKind::Input) if an end lies in a ball, or there is no way
-Report::Pore findPore(const std::vector<Ball>& balls, const BallSet::PoreWay& way,
+Report::Pore findPore(const std::vector<Ball>& balls, const SearchPlaces::PoreWay& way,
                       const Progress& progress);
 
 /// Balls line a way, or a room, within this of the ball there [Å].

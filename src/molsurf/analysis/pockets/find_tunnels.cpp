@@ -72,7 +72,7 @@ std::int32_t climbed(const VoidGraph& graph, const Rooms& rooms, std::int32_t n)
 
 /// The node where tunnels begin.
 /// @param[in] clearance  at the place [Å]
-std::int32_t startOf(const VoidGraph& graph, const Rooms& rooms, const BallSet::PoreWay::End& from,
+std::int32_t startOf(const VoidGraph& graph, const Rooms& rooms, const SearchPlaces::End& from,
                      double clearance, const TunnelOptions& options, const DepthAt& depth)
 {
     const std::int32_t start = from.isPoint
@@ -147,7 +147,7 @@ Report::Tunnels::Tunnel tunnelOf(const Clearance& clearance, const VoidWay& way)
 
 } // namespace
 
-Report::Tunnels findTunnels(const std::vector<Ball>& balls, const BallSet::PoreWay::End& from,
+Report::Tunnels findTunnels(const std::vector<Ball>& balls, const SearchPlaces::End& from,
                             const TunnelOptions& options, const Progress& progress)
 {
     const Clearance clearance(balls);

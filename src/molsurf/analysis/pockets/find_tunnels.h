@@ -30,7 +30,7 @@ struct TunnelOptions {
 /// @param[in] balls  at least one, every one finite
 /// @throws Error(ErrorKind::Input) if the small probe does not fit at a point, if the large probe
 ///         gets to the place from outside, or if there is no way out
-Report::Tunnels findTunnels(const std::vector<Ball>& balls, const BallSet::PoreWay::End& from,
+Report::Tunnels findTunnels(const std::vector<Ball>& balls, const SearchPlaces::End& from,
                             const TunnelOptions& options, const Progress& progress);
 
 } // namespace molsurf

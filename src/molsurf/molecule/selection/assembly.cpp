@@ -121,7 +121,7 @@ AssemblyCopies copiesOf(const Structure& structure, const std::string& name,
     std::vector<char> used(balls.size());
     found.parts = ballsOfParts(structure, assembly, balls, used);
     const auto unused = std::size_t(std::count(used.begin(), used.end(), char{0}));
-    if (unused > 0) out.drops.push_back({"not in the assembly", unused});
+    if (unused > 0) out.record.drops.push_back({"not in the assembly", unused});
     const std::vector<Operator> operators = operatorsOf(assembly);
     const std::vector<std::size_t> partOf = partsOfCopies(assembly);
     for (const std::size_t i : chooseCopies(structure, assembly, copies, centroidOf(found.parts))) {

@@ -313,8 +313,8 @@ void averageResidues(const Structure& structure, const std::vector<Ball>& balls,
 }
 
 /// Sets the range of values that have none of their own, and says what they cannot show.
-void judge(const SelectOptions::Coloring& coloring, bool spreads, bool signedRange,
-           BallValues& values, std::vector<std::string>& warnings)
+void judge(const Coloring& coloring, bool spreads, bool signedRange, BallValues& values,
+           std::vector<std::string>& warnings)
 {
     std::size_t none = 0;
     float low = std::numeric_limits<float>::max(), high = -low;
@@ -349,8 +349,8 @@ void judge(const SelectOptions::Coloring& coloring, bool spreads, bool signedRan
 } // namespace
 
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
-                      const SelectOptions::Coloring& coloring, const BallPlaces& places,
-                      std::size_t maxBytes, std::vector<std::string>& warnings)
+                      const Coloring& coloring, const BallPlaces& places, std::size_t maxBytes,
+                      std::vector<std::string>& warnings)
 {
     const auto filled = [&](BallValues out, const auto& value) {
         for (const Ball& ball : balls) out.valueOf.push_back(value(ball));

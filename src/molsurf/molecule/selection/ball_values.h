@@ -64,7 +64,7 @@ struct BallPlaces {
 /// @throws Error(ErrorKind::Input) if the file has no such values, or the table cannot be read or
 ///         fits no atom
 BallValues ballValues(const Structure& structure, const std::vector<Ball>& balls, const ValueBy& by,
-                      const SelectOptions::Coloring& coloring, const BallPlaces& places,
-                      std::size_t maxBytes, std::vector<std::string>& warnings);
+                      const Coloring& coloring, const BallPlaces& places, std::size_t maxBytes,
+                      std::vector<std::string>& warnings);
 
 } // namespace molsurf

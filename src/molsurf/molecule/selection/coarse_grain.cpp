@@ -265,14 +265,15 @@ std::string nameOf(const CoarseRule& rule)
     return rule.select.empty() ? word : rule.select + "=" + word;
 }
 
-CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& balls,
+CoarseBalls coarseGrain(const Selections& selections, const std::vector<Ball>& balls,
                         const std::vector<CoarseRule>& given, double probe,
                         const Progress& progress)
 {
+    const Structure& structure = selections.structure();
     CoarseBalls out;
     std::vector<CoarseRule> rules(1); // atom
     rules.insert(rules.end(), given.begin(), given.end());
-    const std::vector<std::int32_t> ruleOf = lastRules(structure, rules, out.warnings);
+    const std::vector<std::int32_t> ruleOf = selections.lastRules(rules, out.warnings);
     out.members = Grouping(structure, balls, rules, ruleOf).take();
     out.balls.reserve(out.members.size());
     out.beadAtoms.resize(structure.atoms.size());

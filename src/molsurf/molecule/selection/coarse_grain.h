@@ -5,7 +5,7 @@
 /// Beads that stand for several atoms.
 
 #include "molsurf/atoms.h"
-#include "molsurf/molecule/structure/structure.h"
+#include "molsurf/molecule/selection/match_atoms.h"
 #include "molsurf/progress.h"
 
 #include <cstddef>
@@ -51,7 +51,7 @@ struct CoarseBalls {
 /// @param[in] balls  atoms in the coordinates of the file
 /// @param[in] probe  see sizeBeads() [Å]
 /// @throws Error as matchAtoms(), and as sizeBeads()
-CoarseBalls coarseGrain(const Structure& structure, const std::vector<Ball>& balls,
+CoarseBalls coarseGrain(const Selections& selections, const std::vector<Ball>& balls,
                         const std::vector<CoarseRule>& rules, double probe,
                         const Progress& progress);
 

@@ -150,14 +150,14 @@ ResidueClass classOf(const std::string& name)
 }
 
 /// Gives every ball the last rule that has its atom in its copy.
-void labelByRules(const Structure& structure, const BallSet& atoms,
+void labelByRules(const Selections& selections, const BallSet& atoms,
                   const std::vector<GroupRule>& rules, BallLabels& labels)
 {
     const Placement& placement = atoms.placement;
     std::vector<std::vector<char>> has; // by rule and atom
     for (const GroupRule& rule : rules) {
         try {
-            AtomMatch match = matchAtoms(structure, rule.select);
+            AtomMatch match = selections.match(rule.select);
             has.emplace_back(match.atoms.begin(), match.atoms.end());
             labels.warnings.insert(labels.warnings.end(), match.warnings.begin(),
                                    match.warnings.end());
@@ -338,14 +338,15 @@ std::string textOf(const GroupBy& by)
                                               : groupWords[std::size_t(by.kind)];
 }
 
-BallLabels labelBalls(const Structure& structure, const BallSet& atoms,
+BallLabels labelBalls(const Selections& selections, const BallSet& atoms,
                       const std::vector<GroupRule>& rules, const std::optional<GroupBy>& by)
 {
+    const Structure& structure = selections.structure();
     const std::vector<Ball>& balls = atoms.balls;
     const Placement& placement = atoms.placement;
     GroupNames names(structure, by.value_or(GroupBy()));
     BallLabels labels;
-    if (!by && !rules.empty()) labelByRules(structure, atoms, rules, labels);
+    if (!by && !rules.empty()) labelByRules(selections, atoms, rules, labels);
     std::map<std::string, std::int32_t> number; // of groups by name
     // Of chains by copy: the images of a unit's copies have their numbers.
     std::map<std::pair<int, std::int32_t>, std::int32_t> chainOf;

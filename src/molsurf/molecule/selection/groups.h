@@ -5,7 +5,7 @@
 /// Named groups of atoms, and what else is known of every ball: chain, element, residue.
 
 #include "molsurf/atoms.h"
-#include "molsurf/molecule/structure/structure.h"
+#include "molsurf/molecule/selection/match_atoms.h"
 
 #include <array>
 #include <cstdint>
@@ -44,7 +44,7 @@ std::string textOf(const GroupBy& by);
 /// @param[in] rules  groups; an atom of several belongs to the last
 /// @param[in] by     groups instead of the rules, if there are any
 /// @throws Error(ErrorKind::Input) if a selection does not parse or matches nothing
-BallLabels labelBalls(const Structure& structure, const BallSet& atoms,
+BallLabels labelBalls(const Selections& selections, const BallSet& atoms,
                       const std::vector<GroupRule>& rules, const std::optional<GroupBy>& by);
 
 } // namespace molsurf

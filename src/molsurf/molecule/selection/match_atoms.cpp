@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/molecule/selection/match_atoms.h"
-#include "molsurf/molecule/selection/pore_way.h"
 
 #include "molsurf/error.h"
 #include "molsurf/molecule/selection/parse_selection.h"
 #include "molsurf/molecule/structure/text_fields.h"
 
 #include <algorithm>
-#include <memory>
+#include <iterator>
+#include <utility>
 
 namespace molsurf
 {
@@ -43,8 +43,6 @@ bool hasNoResidues(const Structure& structure)
 
 AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
 {
-    const auto settled = structure.settled.find(expression);
-    if (settled != structure.settled.end()) return *settled->second;
     const Selection selection = parseSelection(expression, structure);
     const SelectionFacts facts(structure);
     AtomMatch match;
@@ -74,40 +72,40 @@ AtomMatch matchAtoms(const Structure& structure, const std::string& expression)
     return match;
 }
 
-void resolveSelections(const SelectOptions& options, const Model& model, Structure& structure)
+AtomMatch Selections::match(const std::string& expression) const
 {
-    std::vector<std::string> expressions{options.select, options.pocketAt,
-                                         tunnelSelection(options.tunnelsFrom)};
-    for (const std::string& end : poreSelections(options.pore)) expressions.push_back(end);
-    for (const GroupRule& rule : options.groups) expressions.push_back(rule.select);
-    for (const ResolutionRule& rule : options.resolutions) expressions.push_back(rule.select);
-    for (const CoarseRule& rule : options.coarse) expressions.push_back(rule.select);
+    const auto known = kept_.find(expression);
+    return known != kept_.end() ? known->second : matchAtoms(structure_, expression);
+}
+
+void Selections::keep(const std::vector<std::string>& expressions, const Model& model)
+{
     for (const std::string& expression : expressions) {
         if (expression.empty()) continue;
-        AtomMatch match;
+        AtomMatch found;
         try {
-            match = matchAtoms(structure, expression);
+            found = match(expression);
         } catch (const Error&) { // selectBalls() gives it, with what the selection is for
             continue;
         }
-        if (match.byPlace) {
-            const auto first = match.atoms.begin() + std::ptrdiff_t(model.begin);
+        if (found.byPlace) {
+            const auto first = found.atoms.begin() + std::ptrdiff_t(model.begin);
             const std::size_t size = model.end - model.begin;
-            for (const Model& other : structure.models)
+            for (const Model& other : structure_.models)
                 if (other.begin != model.begin && other.end - other.begin == size)
                     std::copy(first, first + std::ptrdiff_t(size),
-                              match.atoms.begin() + std::ptrdiff_t(other.begin));
-            match.models = {0};
-            match.warnings.clear();
+                              found.atoms.begin() + std::ptrdiff_t(other.begin));
+            found.models = {0};
+            found.warnings.clear();
         }
-        structure.settled[expression] = std::make_shared<const AtomMatch>(std::move(match));
+        kept_[expression] = std::move(found);
     }
 }
 
-void forgetPlaces(Structure& structure)
+void Selections::forgetPlaces()
 {
-    for (auto one = structure.settled.begin(); one != structure.settled.end();)
-        one = one->second->byPlace ? structure.settled.erase(one) : std::next(one);
+    for (auto one = kept_.begin(); one != kept_.end();)
+        one = one->second.byPlace ? kept_.erase(one) : std::next(one);
 }
 
 } // namespace molsurf

@@ -8,6 +8,7 @@
 #include "molsurf/molecule/structure/structure.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -29,27 +30,46 @@ struct AtomMatch {
 /// @throws Error(ErrorKind::Input) if it matches no atom
 AtomMatch matchAtoms(const Structure& structure, const std::string& expression);
 
-/// Matches the selections of some options once for all frames. Those that ask for places keep their
-/// atoms when these move: models with as many atoms as a given one have its atoms, by their order.
-void resolveSelections(const SelectOptions& options, const Model& model, Structure& structure);
-
-/// Lets those that ask for places be matched anew.
-void forgetPlaces(Structure& structure);
-
-/// For each atom the last of some rules whose selection has it, or -1; an empty one has all.
-template<typename Rule>
-std::vector<std::int32_t> lastRules(const Structure& structure, const std::vector<Rule>& rules,
-                                    std::vector<std::string>& warnings)
+/// The selections of a structure: matched when they are asked for, or kept from an earlier place of
+/// its atoms. A structure alone keeps none.
+class Selections
 {
-    std::vector<std::int32_t> out(structure.atoms.size(), -1);
-    for (std::size_t r = 0; r < rules.size(); ++r) {
-        const std::string& select = rules[r].select;
-        const AtomMatch match = select.empty() ? AtomMatch() : matchAtoms(structure, select);
-        for (std::size_t i = 0; i < out.size(); ++i)
-            if (select.empty() || match.atoms[i]) out[i] = std::int32_t(r);
-        warnings.insert(warnings.end(), match.warnings.begin(), match.warnings.end());
+public:
+    /// @param[in] structure  has to outlive it
+    Selections(const Structure& structure) : structure_(structure) {}
+
+    const Structure& structure() const { return structure_; }
+
+    /// Evaluates an expression, or gives what was kept of it.
+    /// @throws Error as matchAtoms()
+    AtomMatch match(const std::string& expression) const;
+
+    /// Matches expressions once for all frames. Those that ask for places keep their atoms when
+    /// these move: models with as many atoms as a given one have its atoms, by their order.
+    void keep(const std::vector<std::string>& expressions, const Model& model);
+
+    /// Lets those that ask for places be matched anew.
+    void forgetPlaces();
+
+    /// For each atom the last of some rules whose selection has it, or -1; an empty one has all.
+    template<typename Rule>
+    std::vector<std::int32_t> lastRules(const std::vector<Rule>& rules,
+                                        std::vector<std::string>& warnings) const
+    {
+        std::vector<std::int32_t> out(structure_.atoms.size(), -1);
+        for (std::size_t r = 0; r < rules.size(); ++r) {
+            const std::string& select = rules[r].select;
+            const AtomMatch found = select.empty() ? AtomMatch() : match(select);
+            for (std::size_t i = 0; i < out.size(); ++i)
+                if (select.empty() || found.atoms[i]) out[i] = std::int32_t(r);
+            warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+        }
+        return out;
     }
-    return out;
-}
+
+private:
+    const Structure& structure_;
+    std::map<std::string, AtomMatch> kept_; ///< by expression
+};
 
 } // namespace molsurf

@@ -15,7 +15,6 @@
 #include "molsurf/molecule/selection/match_atoms.h"
 #include "molsurf/molecule/selection/membrane.h"
 #include "molsurf/molecule/selection/point_charges.h"
-#include "molsurf/molecule/selection/pore_way.h"
 #include "molsurf/molecule/selection/radii.h"
 #include "molsurf/molecule/selection/residue_roles.h"
 #include "molsurf/molecule/selection/subset.h"
@@ -96,7 +95,7 @@ public:
 
     void note(const std::string& reason, std::size_t count)
     {
-        if (count > 0) out_.drops.push_back({reason, count});
+        if (count > 0) out_.record.drops.push_back({reason, count});
     }
 
     const Indices& atoms() const { return atoms_; }
@@ -121,8 +120,8 @@ void chooseAltloc(const Structure& structure, const std::string& altloc, Filter&
         if (label != '\0') labels.emplace(1, label);
     }
     if (labels.empty()) {
-        out.warnings.push_back("alternate location " + altloc +
-                               ": the selected atoms have no alternate locations");
+        out.record.warnings.push_back("alternate location " + altloc +
+                                      ": the selected atoms have no alternate locations");
     } else if (labels.count(altloc) == 0) {
         failAt(structure.source, "alternate location " + inQuotes(altloc) + ": expected one of " +
                                      joined({labels.begin(), labels.end()}));
@@ -185,10 +184,10 @@ std::vector<double> findRadii(const Structure& structure, const SelectOptions& o
         }
         return radii;
     }
-    const RadiiSet set = readRadii(radiiName(structure, options.radii), options.maxInput),
+    const RadiiSet set = readRadii(radiiName(structure, options.radii), options.limits.maxInput),
                    fallback = readRadii("bondi");
-    out.radii = std::filesystem::path(set.name).filename().string();
-    std::vector<std::string>& warnings = out.warnings;
+    out.record.radii = std::filesystem::path(set.name).filename().string();
+    std::vector<std::string>& warnings = out.record.warnings;
     std::map<std::string, std::size_t> uncovered, unknown;
     for (const std::int32_t i : atoms) {
         const Atom& atom = structure.atoms[std::size_t(i)];
@@ -304,7 +303,7 @@ void dropDuplicates(const Structure& structure, Filter& filter, BallSet& out)
     const std::size_t count = out.balls.size() - kept;
     out.balls.resize(kept);
     filter.note("duplicate", count);
-    out.warnings.push_back(
+    out.record.warnings.push_back(
         counted(count, "atom lies", "atoms lie") +
         " exactly where another of the same radius lies: dropped; the first is " +
         describeAtom(structure, atom));
@@ -369,8 +368,7 @@ std::string describeRole(const Structure& structure, const std::string& what, co
 const Assembly* assemblyOf(const Structure& structure, const SelectOptions& options)
 {
     for (const Assembly& assembly : structure.assemblies)
-        if (options.assembly && assembly.name == *options.assembly && assembly.problem.empty())
-            return &assembly;
+        if (assembly.name == options.assembly.name && assembly.problem.empty()) return &assembly;
     return nullptr;
 }
 
@@ -433,11 +431,11 @@ void applyFilters(const Structure& structure, const SelectOptions& options, cons
 }
 
 /// Gives every ball the rate of the last rule that has its atom.
-void applyResolutions(const Structure& structure, const SelectOptions& options, BallSet& out)
+void applyResolutions(const Selections& selections, const SelectOptions& options, BallSet& out)
 {
     if (options.resolutions.empty()) return;
     const std::vector<std::int32_t> ruleOf =
-        lastRules(structure, options.resolutions, out.warnings);
+        selections.lastRules(options.resolutions, out.record.warnings);
     for (const ResolutionRule& rule : options.resolutions) out.resolutions.push_back({rule, 0});
     out.decays.resize(out.balls.size());
     out.resolutionOf.resize(out.balls.size());
@@ -451,15 +449,15 @@ void applyResolutions(const Structure& structure, const SelectOptions& options, 
     countBalls(out, out.resolutionOf, out.resolutions);
     for (const ResolutionGroup& group : out.resolutions) {
         if (group.balls > 0) continue;
-        out.warnings.push_back("resolution " + inQuotes(group.rule.select) +
-                               ": no ball is left for it");
+        out.record.warnings.push_back("resolution " + inQuotes(group.rule.select) +
+                                      ": no ball is left for it");
     }
 }
 
 /// Adds the values that a surface is coloured by.
 /// @param[in] probe  of the surface that depths are below [Å]
-void addValues(const Structure& structure, const SelectOptions& options, double probe,
-               const Progress& progress, BallSet& out)
+void addValues(const Structure& structure, const LabelOptions& options, std::size_t maxInput,
+               double probe, const Progress& progress, BallSet& out)
 {
     BallPlaces places{openvdb::Vec3d(0.0), {}};
     for (const Ball& ball : out.balls)
@@ -468,12 +466,30 @@ void addValues(const Structure& structure, const SelectOptions& options, double 
     if (options.valueBy->kind == ValueBy::Kind::Depth)
         places.depths = ballDepths(out, probe, progress);
     BallValues values = ballValues(structure, out.balls, *options.valueBy, options.coloring, places,
-                                   options.maxInput, out.warnings);
+                                   maxInput, out.record.warnings);
     const std::size_t none = std::size_t(std::count_if(values.valueOf.begin(), values.valueOf.end(),
                                                        [](float v) { return !std::isfinite(v); }));
     if (none == values.valueOf.size() && !values.byPoint())
         failAt(structure.source, values.title + ": no atom has one");
     out.labels->values = std::move(values);
+}
+
+/// Adds the labels, if any are asked for. Prototypes are their groups.
+/// @param[in] groups  of `options`, with the numbers of their copies
+void addLabels(const Selections& selections, const LabelOptions& options,
+               const std::vector<GroupRule>& groups, BallSet& out)
+{
+    const bool several = out.placement.prototypes() > 1;
+    const bool grouped = !groups.empty() || options.groupBy;
+    if (several && grouped)
+        throw Error(ErrorKind::Usage,
+                    "`groups` and `groupBy`: expected one prototype, the assembly has " +
+                        std::to_string(out.placement.copies) + " with `instances`");
+    if (!options.labels && !options.valueBy && !grouped && !several) return;
+    out.labels = labelBalls(selections, out, groups,
+                            several ? GroupBy{GroupBy::Kind::Copy} : options.groupBy);
+    out.record.warnings.insert(out.record.warnings.end(), out.labels->warnings.begin(),
+                               out.labels->warnings.end());
 }
 
 /// Counts the beads of the whole, and the atoms that they stand for.
@@ -483,26 +499,26 @@ void countBeads(const std::vector<std::int32_t>& atoms, BallSet& out)
     const std::size_t times = out.placement.order();
     for (std::size_t i = 0; i < out.own(); ++i) {
         const std::int32_t n = atoms[std::size_t(out.balls[i].atom)];
-        out.beads += times * (n > 0);
-        out.beadAtoms += times * std::size_t(n);
+        out.record.beads += times * (n > 0);
+        out.record.beadAtoms += times * std::size_t(n);
     }
 }
 
 /// The groups, with the numbers of their copies.
 /// @param[in] balls  in the coordinates of the file
-std::vector<GroupRule> withCopies(const Structure& structure, const SelectOptions& options,
-                                  const std::vector<Ball>& balls)
+std::vector<GroupRule> withCopies(const Structure& structure,
+                                  const std::optional<std::string>& assembly,
+                                  std::vector<GroupRule> groups, const std::vector<Ball>& balls)
 {
-    std::vector<GroupRule> groups = options.groups;
     for (GroupRule& group : groups) {
         if (group.copies.all()) continue;
         const std::string where = "group " + group.name + ": copies: ";
-        if (!options.assembly) {
+        if (!assembly) {
             throw Error(ErrorKind::Input, where + "expected an assembly [hint: `assembly`]");
         }
         try {
             checkCopies(group.copies);
-            group.copyNumbers = findCopies(structure, *options.assembly, group.copies, balls);
+            group.copyNumbers = findCopies(structure, *assembly, group.copies, balls);
         } catch (const Error& e) { // the file of groups is wrong, not the call
             throw Error(ErrorKind::Input, where + e.what());
         }
@@ -527,18 +543,18 @@ void checkFits(const AssemblyCopies& assembly, std::size_t memory)
 void placeBalls(const Structure& structure, const SelectOptions& options, std::vector<Ball> balls,
                 BallSet& out)
 {
-    if (!options.assembly) {
+    const AssemblyChoice& assembly = options.assembly;
+    if (!assembly.name) {
         out.balls = std::move(balls);
         out.placement.begin = {0, out.balls.size()};
         out.placement.numbers = {1};
         return;
     }
-    const auto place = options.bySymmetry  ? chooseUnit
-                       : options.instances ? instanceAssembly
-                                           : expandAssembly;
-    const AssemblyCopies copies =
-        copiesOf(structure, *options.assembly, options.copies, balls, out);
-    if (place == expandAssembly) checkFits(copies, options.memory);
+    const auto place = assembly.bySymmetry  ? chooseUnit
+                       : assembly.instances ? instanceAssembly
+                                            : expandAssembly;
+    const AssemblyCopies copies = copiesOf(structure, *assembly.name, assembly.copies, balls, out);
+    if (place == expandAssembly) checkFits(copies, options.limits.memory);
     out.placement = place(copies, out.balls);
 }
 
@@ -546,79 +562,33 @@ void placeBalls(const Structure& structure, const SelectOptions& options, std::v
 
 void checkOptions(const SelectOptions& options)
 {
-    checkCopies(options.copies);
-    checkPore(options.pore);
-    checkTunnelsFrom(options.tunnelsFrom);
-    if (options.groupBy && options.groupBy->kind == GroupBy::Kind::Residues &&
-        options.groupBy->residues < 1)
-        throw Error(ErrorKind::Usage, "`groupBy`: expected at least one residue, got " +
-                                          std::to_string(options.groupBy->residues));
-    const std::pair<const char*, bool> ofAssemblies[] = {{"`copies`", !options.copies.all()},
-                                                         {"`instances`", options.instances},
-                                                         {"`bySymmetry`", options.bySymmetry}};
+    const AssemblyChoice& assembly = options.assembly;
+    checkCopies(assembly.copies);
+    const std::pair<const char*, bool> ofAssemblies[] = {{"`copies`", !assembly.copies.all()},
+                                                         {"`instances`", assembly.instances},
+                                                         {"`bySymmetry`", assembly.bySymmetry}};
     for (const auto& [name, given] : ofAssemblies) {
-        if (given && !options.assembly)
+        if (given && !assembly.name)
             throw Error(ErrorKind::Usage,
                         std::string(name) +
                             " is for an assembly [hint: `assembly` 1, for example]");
-        if (given && options.bySymmetry && name != std::string("`bySymmetry`"))
+        if (given && assembly.bySymmetry && name != std::string("`bySymmetry`"))
             throw Error(ErrorKind::Usage, std::string("`bySymmetry` and ") + name + " together");
     }
 }
 
-namespace
+void checkOptions(const LabelOptions& options)
 {
-
-/// Adds the places of the atoms that a pocket is at, and warns if ligands among them are a part of
-/// the molecule, which fill the pocket.
-/// @throws Error(ErrorKind::Usage) if there are none
-void addPocketPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
-                     BallSet& out)
-{
-    if (options.pocketAt.empty()) return;
-    std::vector<char> used(structure.atoms.size());
-    for (const Ball& ball : out.balls) used[std::size_t(ball.atom)] = 1;
-    std::set<std::string> names;
-    std::size_t filled = 0;
-    try {
-        const AtomMatch match = matchAtoms(structure, options.pocketAt);
-        for (std::size_t i = model.begin; i < model.end; ++i) {
-            if (!match.atoms[i]) continue;
-            out.pocketAt.push_back(structure.atoms[i].position);
-            const Residue& residue = residueOf(structure, structure.atoms[i]);
-            if (!used[i] || !residue.hetero()) continue;
-            ++filled;
-            names.insert(residue.name);
-        }
-    } catch (const Error& error) {
-        throw Error(ErrorKind::Usage, std::string("`pocketAt`: ") + error.what());
-    }
-    if (out.pocketAt.empty())
-        throw Error(ErrorKind::Usage, "`pocketAt`: selection " + inQuotes(options.pocketAt) +
-                                          " matches no atom of model " +
-                                          std::to_string(model.number));
-    if (filled > 0)
-        out.warnings.push_back("`pocketAt`: " + counted(filled, "atom", "atoms") + " of " +
-                               joined({names.begin(), names.end()}) +
-                               " are a part of the molecule, and fill the pocket [hint: `select` "
-                               "\"not resname " +
-                               *names.begin() + "\" leaves them out]");
+    if (options.groupBy && options.groupBy->kind == GroupBy::Kind::Residues &&
+        options.groupBy->residues < 1)
+        throw Error(ErrorKind::Usage, "`groupBy`: expected at least one residue, got " +
+                                          std::to_string(options.groupBy->residues));
 }
 
-/// Adds where a pocket, a pore and tunnels are searched for.
-void addPlaces(const Structure& structure, const SelectOptions& options, const Model& model,
-               BallSet& out)
+BallSet selectBalls(const Selections& selections, const SelectOptions& options,
+                    const LabelOptions& labels, double probe, const Progress& progress)
 {
-    addPocketPlaces(structure, options, model, out);
-    out.pore = poreWay(options.pore, structure, model);
-    out.tunnelsFrom = tunnelsFrom(options.tunnelsFrom, structure, model);
-}
-
-} // namespace
-
-BallSet selectBalls(const Structure& structure, const SelectOptions& options, double probe,
-                    const Progress& progress)
-{
+    const Structure& structure = selections.structure();
     if (!structure.placed)
         failAt(structure.source, "has no coordinates, expected them from a trajectory beside it "
                                  "[hint: `trajectory` FILE.dcd or FILE.xtc, with `frames`]");
@@ -627,63 +597,52 @@ BallSet selectBalls(const Structure& structure, const SelectOptions& options, do
                                           ": expected none, since " +
                                           displayName(structure.source) + " has its own");
     }
-    const AtomMatch match =
-        options.select.empty() ? AtomMatch() : matchAtoms(structure, options.select);
+    const AtomMatch match = options.select.empty() ? AtomMatch() : selections.match(options.select);
     const Model& model = chooseModel(structure, options, match.models);
     if (!model.problem.empty()) failAt(structure.source, model.problem);
     BallSet out;
-    out.model = model.number;
-    out.membrane = membraneNormal(structure, model);
-    out.warnings = structure.warnings;
-    out.warnings.insert(out.warnings.end(), match.warnings.begin(), match.warnings.end());
+    out.record.model = model.number;
+    out.record.membrane = membraneNormal(structure, model);
+    out.record.warnings = structure.warnings;
+    out.record.warnings.insert(out.record.warnings.end(), match.warnings.begin(),
+                               match.warnings.end());
     Filter filter(model, out);
     applyFilters(structure, options, match, model, filter, out);
-    if (options.charges)
+    if (labels.charges)
         out.charges = std::make_shared<const PointCharges>(pointCharges(structure, filter.atoms()));
     std::vector<Ball> balls = makeBalls(structure, options, filter, out);
     std::vector<std::int32_t> beadAtoms; // by the representative atom: how many a bead stands for
     if (!options.coarse.empty()) {
-        CoarseBalls coarse = coarseGrain(structure, balls, options.coarse, probe, progress);
+        CoarseBalls coarse = coarseGrain(selections, balls, options.coarse, probe, progress);
         balls = std::move(coarse.balls);
         beadAtoms = std::move(coarse.beadAtoms);
-        out.warnings.insert(out.warnings.end(), coarse.warnings.begin(), coarse.warnings.end());
+        out.record.warnings.insert(out.record.warnings.end(), coarse.warnings.begin(),
+                                   coarse.warnings.end());
     }
     stopIfCancelled(progress);
-    const std::vector<GroupRule> groups = withCopies(structure, options, balls);
+    const std::vector<GroupRule> groups =
+        withCopies(structure, options.assembly.name, labels.groups, balls);
     placeBalls(structure, options, std::move(balls), out);
     if (out.balls.empty()) {
-        const bool anyWater = std::any_of(out.drops.begin(), out.drops.end(),
+        const bool anyWater = std::any_of(out.record.drops.begin(), out.record.drops.end(),
                                           [](auto& drop) { return drop.reason == "water"; });
         failAt(structure.source, "nothing is left of " + std::to_string(model.end - model.begin) +
-                                     " atoms: dropped " + describeDrops(out.drops) +
+                                     " atoms: dropped " + describeDrops(out.record.drops) +
                                      (anyWater ? " [hint: `waters` keeps it]" : ""));
     }
     dropDuplicates(structure, filter, out);
     checkExtent(structure, out.balls);
-    surround(options.surroundings, out);
-    warnOfRounding(out.balls, out.warnings);
+    surround(options.assembly.surroundings, out);
+    warnOfRounding(out.balls, out.record.warnings);
     if (!beadAtoms.empty()) countBeads(beadAtoms, out);
     stopIfCancelled(progress);
-    applyResolutions(structure, options, out);
-    const bool several = out.placement.prototypes() > 1;
-    if (several && (!options.groups.empty() || options.groupBy))
-        throw Error(ErrorKind::Usage,
-                    "`groups` and `groupBy`: expected one prototype, the assembly "
-                    "has " +
-                        std::to_string(out.placement.copies) + " with `instances`");
-    if (options.labels || options.valueBy || !options.groups.empty() || options.groupBy ||
-        several) {
-        out.labels = labelBalls(structure, out, groups,
-                                several ? GroupBy{GroupBy::Kind::Copy} : options.groupBy);
-        out.warnings.insert(out.warnings.end(), out.labels->warnings.begin(),
-                            out.labels->warnings.end());
-    }
+    applyResolutions(selections, options, out);
+    addLabels(selections, labels, groups, out);
     stopIfCancelled(progress);
-    addPlaces(structure, options, model, out);
-    out.coloring = options.coloring;
-    if (options.valueBy) addValues(structure, options, probe, progress, out);
-    if (options.plainColor) out.colors.assign(out.balls.size(), *options.plainColor);
-    if (options.names) out.names = ballNames(structure, out);
+    out.coloring = labels.coloring;
+    if (labels.valueBy) addValues(structure, labels, options.limits.maxInput, probe, progress, out);
+    if (labels.plainColor) out.colors.assign(out.balls.size(), *labels.plainColor);
+    if (labels.names) out.names = ballNames(structure, out);
     return out;
 }
 
@@ -723,15 +682,15 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
     };
     std::size_t atoms = structure.atoms.size();
     for (const Model& model : structure.models) {
-        if (model.number == selection.model) {
+        if (model.number == selection.record.model) {
             atoms = model.end - model.begin;
             break;
         }
     }
     std::string text = displayName(structure.source) + ": " + structure.format + ", " +
                        some(structure.models.size(), "model") + ", " + some(atoms, "atom");
-    if (structure.models.size() > 1) text += " in model " + std::to_string(selection.model);
-    text += "; used " + some(selection.own(), selection.beads > 0 ? "ball" : "atom");
+    if (structure.models.size() > 1) text += " in model " + std::to_string(selection.record.model);
+    text += "; used " + some(selection.own(), selection.record.beads > 0 ? "ball" : "atom");
     const Placement& placement = selection.placement;
     if (const auto& unit = placement.unit) {
         text += " (" + counted(unit->copies, "copy", "copies") + ") in each of " +
@@ -744,9 +703,9 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
     } else if (placement.copies > 1)
         text += " (" + std::to_string(placement.copies) + " copies of " +
                 std::to_string(atomsOfFile(structure, selection)) + " in the file)";
-    if (selection.beads > 0) {
-        text += ", of them " + some(selection.beads, "bead") + " for " +
-                some(selection.beadAtoms, "atom");
+    if (selection.record.beads > 0) {
+        text += ", of them " + some(selection.record.beads, "bead") + " for " +
+                some(selection.record.beadAtoms, "atom");
     }
     if (placement.copies == 1 && placement.isWhole()) {
         for (const Assembly& assembly : structure.assemblies) {
@@ -757,7 +716,8 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
             break;
         }
     }
-    if (!selection.drops.empty()) text += "; dropped " + describeDrops(selection.drops);
+    if (!selection.record.drops.empty())
+        text += "; dropped " + describeDrops(selection.record.drops);
     if (structure.guessed > 0) text += "; " + describeGuesses(structure);
     return text;
 }

@@ -5,14 +5,14 @@
 /// From a structure to the balls whose surface is wanted.
 
 #include "molsurf/atoms.h"
-#include "molsurf/molecule/structure/structure.h"
+#include "molsurf/molecule/selection/match_atoms.h"
 
 #include <string>
 
 namespace molsurf
 {
 
-/// Chooses atoms, gives them radii, and applies the operators of the assembly.
+/// Chooses atoms, gives them radii, applies the operators of the assembly, and labels the balls.
 ///
 /// The order of the balls is that of the file, copy by copy: a copy is one operator applied to the
 /// chains that share it. Every ball's `atom` is the index of its atom in Structure::atoms.
@@ -41,7 +41,8 @@ namespace molsurf
 /// @throws Error(ErrorKind::Usage) if the selection cannot be parsed or names another model than
 ///         options.model, if options.altloc is no label, or if radii are asked for a file that has
 ///         its own
-BallSet selectBalls(const Structure& structure, const SelectOptions& options, double probe = 0.0,
+BallSet selectBalls(const Selections& selections, const SelectOptions& options,
+                    const LabelOptions& labels = {}, double probe = 0.0,
                     const Progress& progress = Progress());
 
 /// One line that says what was read, used and dropped, by kind and count:

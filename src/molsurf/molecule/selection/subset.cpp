@@ -33,8 +33,8 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     out.resolutionOf = gather(atoms.resolutionOf, which);
     out.colors = gather(atoms.colors, which);
     out.coloring = atoms.coloring;
-    out.model = atoms.model;
-    out.membrane = atoms.membrane;
+    out.record.model = atoms.record.model;
+    out.record.membrane = atoms.record.membrane;
     if (counted == Counted::Subset) countBalls(out, out.resolutionOf, out.resolutions);
     if (!atoms.labels) return out;
     const BallLabels& all = *atoms.labels;

@@ -35,10 +35,11 @@ const Model& modelOf(const Structure& structure, int number)
 }
 
 /// The atoms of a selection; all if it is empty.
-std::vector<char> chosen(const Structure& structure, const std::string& select)
+std::vector<char> chosen(const Selections& selections, const std::string& select)
 {
-    if (select.empty() || select == "all") return std::vector<char>(structure.atoms.size(), 1);
-    return matchAtoms(structure, select).atoms;
+    if (select.empty() || select == "all")
+        return std::vector<char>(selections.structure().atoms.size(), 1);
+    return selections.match(select).atoms;
 }
 
 /// The only chain; nullopt: there are several.
@@ -58,16 +59,17 @@ Operator movedOperator(const Superposition& motion, const Operator& op)
 
 } // namespace
 
-std::vector<char> anchorAtoms(const Structure& structure, const AnchorRule& rule)
+std::vector<char> anchorAtoms(const Selections& selections, const AnchorRule& rule)
 {
-    std::vector<char> taken = chosen(structure, rule.among);
+    const Structure& structure = selections.structure();
+    std::vector<char> taken = chosen(selections, rule.among);
     if (rule.byResidue()) {
         for (std::size_t i = 0; i < taken.size(); ++i) {
             const Atom& atom = structure.atoms[i];
             taken[i] &= char(standsForResidue(residueOf(structure, atom), atom));
         }
     } else {
-        const std::vector<char> anchors = chosen(structure, rule.anchors);
+        const std::vector<char> anchors = chosen(selections, rule.anchors);
         for (std::size_t i = 0; i < taken.size(); ++i) taken[i] &= anchors[i];
     }
     return taken;

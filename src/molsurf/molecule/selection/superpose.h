@@ -5,7 +5,7 @@
 /// A structure laid on another one by the atoms that both have.
 
 #include "molsurf/kernel/core/superposition.h"
-#include "molsurf/molecule/structure/structure.h"
+#include "molsurf/molecule/selection/match_atoms.h"
 
 #include <map>
 #include <string>
@@ -33,7 +33,7 @@ struct AnchorRule {
 };
 
 /// Which atoms of all models are anchors.
-std::vector<char> anchorAtoms(const Structure& structure, const AnchorRule& rule);
+std::vector<char> anchorAtoms(const Selections& selections, const AnchorRule& rule);
 
 /// @param[in] model  its number; 0: the first one
 /// @throws Error(ErrorKind::Input) if there are none

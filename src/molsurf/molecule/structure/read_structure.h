@@ -41,7 +41,7 @@ namespace molsurf
 ///
 /// @param[in] maxBytes  that the text may have; see loadText()
 /// @param[in] progress  may end the reading between its stages: unpacking, parsing, making atoms
-/// @param[in] memory    that the process may take [byte]; see SelectOptions::memory
+/// @param[in] memory    that the process may take [byte]; see ReadLimits::memory
 /// @throws Error(ErrorKind::Input) if reading is estimated to take more memory, or if the file does
 ///         not exist, is a folder, is empty, too large or cut short, is not a structure, has no
 ///         model or no atom, or has a coordinate that is not finite or lies beyond 1e6 Å

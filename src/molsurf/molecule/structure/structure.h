@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,7 +18,6 @@ namespace molsurf
 {
 
 struct FileBonds;
-struct AtomMatch;
 
 /// Kind of a residue; classifyResidues() decides. docs/structures.md has the table.
 enum class ResidueKind : std::uint8_t {
@@ -129,11 +127,9 @@ struct Structure {
     std::vector<float> charges;        ///< of the atoms of a PQR or .mol2 file [e]; else empty
     std::vector<std::string> labels;   ///< of the atoms of an xyzrn file: the last column as it
                                        ///< stands there; else empty
-    /// What expressions select, see resolveSelections().
-    std::map<std::string, std::shared_ptr<const AtomMatch>> settled;
-    bool hasRadii = false;   ///< true if every atom has the file's own radius
-    bool placed = true;      ///< false if the atoms have no places yet, which then are
-                             ///< all 0
+    bool hasRadii = false;             ///< true if every atom has the file's own radius
+    bool placed = true;                ///< false if the atoms have no places yet, which then are
+                                       ///< all 0
     bool plddt = false;      ///< whether the file says that B factors are the pLDDT of a prediction
     std::size_t guessed = 0; ///< atoms of the first model whose elements come from names or masses
     std::shared_ptr<const FileBonds> bonds; ///< that the file gives; null: it gives none

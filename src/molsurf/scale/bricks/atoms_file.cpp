@@ -200,10 +200,10 @@ std::string headerText(const BallSet& atoms, const GaussianExtent& extent)
         resolutions.push_back({r.rule.select, r.rule.resolution, r.balls, r.level});
     Json out = {{"atoms", atoms.balls.size()},
                 {"columns", columns(atoms)},
-                {"model", atoms.model},
+                {"model", atoms.record.model},
                 {"extent", {extent.maxRadius, extent.maxGrownRadius, extent.maxTolerance}},
                 {"resolutions", std::move(resolutions)}};
-    const SelectOptions::Coloring& coloring = atoms.coloring;
+    const Coloring& coloring = atoms.coloring;
     out["coloring"] = {{"range", coloring.range ? Json(*coloring.range) : Json()},
                        {"palette", coloring.palette},
                        {"by_residue", coloring.byResidue},
@@ -264,7 +264,7 @@ ScalarMap parseMap(const Json& j)
 BallSet parseHeader(const Json& j)
 {
     BallSet out;
-    out.model = jsonNumber<int>(j.at("model"));
+    out.record.model = jsonNumber<int>(j.at("model"));
     for (const Json& r : j.at("resolutions")) {
         out.resolutions.push_back({{r.at(0), jsonNumber<double>(r.at(1))},
                                    jsonNumber<std::size_t>(r.at(2)),

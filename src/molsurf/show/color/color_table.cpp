@@ -146,7 +146,7 @@ void foldClasses(const BallSet& atoms, Legend& legend)
 ColorKind byLabels(ColorBy by, const char* word, const char* title, const char* attribute = "")
 {
     ColorKind kind{by, word, title, attribute};
-    kind.needs = "labels, as of SelectOptions::labels";
+    kind.needs = "labels, as of LabelOptions::labels";
     kind.has = hasLabels;
     kind.hasBorders = always;
     return kind;
@@ -194,7 +194,7 @@ ColorKind byGroup()
 {
     ColorKind kind = byLabels(ColorBy::Group, "group", "Group", "group_id");
     kind.offered = true;
-    kind.needs = "groups, as of SelectOptions::groupBy";
+    kind.needs = "groups, as of LabelOptions::groupBy";
     kind.has = hasGroups;
     kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
         return spread(groupColors(atoms, progress), atoms.labels->groupOf);
@@ -273,7 +273,7 @@ ColorKind plain()
 {
     ColorKind kind{ColorBy::Plain, "plain"};
     kind.complete = false;
-    kind.needs = "colours of the balls, as of SelectOptions::plainColor";
+    kind.needs = "colours of the balls, as of LabelOptions::plainColor";
     kind.has = hasColors;
     kind.ofBalls = [](const BallSet& atoms, const Progress&) { return atoms.colors; };
     return kind;
@@ -316,7 +316,7 @@ ColorKind byValue()
 {
     ColorKind kind{ColorBy::Value, "value"};
     kind.complete = false;
-    kind.needs = "values, as of SelectOptions::valueBy";
+    kind.needs = "values, as of LabelOptions::valueBy";
     kind.has = hasValues;
     kind.ofBalls = [](const BallSet& atoms, const Progress&) {
         return valueColors(*atoms.labels->values);

@@ -18,8 +18,7 @@ const char* curvatureNameOf(ColorBy by)
     return kind.ofCurvature ? kind.attribute : nullptr;
 }
 
-ColorScale curvatureScale(const std::vector<float>& curvature,
-                          const SelectOptions::Coloring& options)
+ColorScale curvatureScale(const std::vector<float>& curvature, const Coloring& options)
 {
     constexpr double least = 1e-6; // of a plane
     const std::string palette = options.palette.empty() ? "RdBu" : options.palette;
@@ -34,7 +33,7 @@ ColorScale curvatureScale(const std::vector<float>& curvature,
     return scaleOf(palette, -high, high);
 }
 
-void colorByCurvature(ColorBy by, const SelectOptions::Coloring& options, Mesh& mesh)
+void colorByCurvature(ColorBy by, const Coloring& options, Mesh& mesh)
 {
     const char* name = curvatureNameOf(by);
     if (!name) return;
@@ -46,8 +45,8 @@ void colorByCurvature(ColorBy by, const SelectOptions::Coloring& options, Mesh& 
     }
 }
 
-openvdb::GridPtrVec curvatureColors(ColorBy by, const SelectOptions::Coloring& options,
-                                    const Mesh& mesh, const openvdb::GridPtrVec& fields)
+openvdb::GridPtrVec curvatureColors(ColorBy by, const Coloring& options, const Mesh& mesh,
+                                    const openvdb::GridPtrVec& fields)
 {
     const std::string name = curvatureNameOf(by);
     openvdb::GridPtrVec colors;

@@ -178,7 +178,7 @@ void addValues(const BallSet& atoms, double outward, const Labels& nearest, doub
     });
 }
 
-double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceSpec& spec)
+double outwardOf(const Coloring& coloring, const SurfaceSpec& spec)
 {
     const KindRow& row = rowOf(spec.kind);
     const bool out = row.hasProbe && !row.hasOffset; // already

@@ -80,6 +80,6 @@ void addValues(const BallSet& atoms, double outward, const Labels& nearest, doub
 
 /// Gives how far outside of the surface a potential is taken [Å]: where the coloring does not say
 /// it, a probe radius, if the surface is not that far from the atoms itself.
-double outwardOf(const SelectOptions::Coloring& coloring, const SurfaceSpec& spec);
+double outwardOf(const Coloring& coloring, const SurfaceSpec& spec);
 
 } // namespace molsurf

@@ -12,7 +12,7 @@ namespace molsurf
 
 /// Reads a structure file and describes it in lines of name and value. Of every assembly it tells
 /// the point group, the axes and the copies about them.
-/// @param[in] maxInput  that the file may have; see SelectOptions::maxInput [byte]
+/// @param[in] maxInput  that the file may have; see ReadLimits::maxInput [byte]
 /// @throws Error(ErrorKind::Input) if the file cannot be read
 std::string describeStructure(const std::string& path, std::size_t maxInput = 0);
 
