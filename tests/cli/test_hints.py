@@ -618,6 +618,7 @@ UNTRIED = {
     "show/io/output_file.cpp": {"free some space": "it takes a full disk, as cli.faults.mount has it",
                            "choose a folder": "cli.hints.user follows it"},
     "show/io/ply_layout.cpp": {"a larger `voxel`": "it takes a mesh of 2^31 vertices"},
+    "show/io/scene.cpp": {"expected a fog": "the command adds fogs itself; test_commands.py of the module follows it"},
     "show/io/write_glb.cpp": {"write .ply": "it takes a mesh of 4 GiB"},
     "show/io/write_mesh.cpp": {"write .obj": "it takes a mesh of 2^32 triangles"},
     "show/io/write_volume.cpp": {"larger voxels": "it takes a box of 2^31 points"},

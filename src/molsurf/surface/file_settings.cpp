@@ -25,10 +25,10 @@ FileSetting programSetting()
 {
     return {"for",
             "PROGRAM[=SCALE]",
-            "blender, blender4 (up to 4.5), houdini, usd, unreal or arnold: a .vdb\n"
-            "with density and Cd as that program takes it; SCALE mn-0.01, mn-0.1, nm, or\n"
-            "units per Å; usd: a .usda beside the .vdb; apbs: -o FOLDER/ gets\n"
-            "its input, charges and maps",
+            "blender, blender4 (up to 4.5), houdini, usd, unreal,\n"
+            "arnold: a .vdb with density and Cd as it takes them; SCALE mn-0.01,\n"
+            "mn-0.1, nm, or units per Å; usd: a .usda beside the .vdb; apbs:\n"
+            "-o FOLDER/ gets its input, charges and maps",
             "",
             holds::SceneUnits | holds::Solver,
             programNames(),
