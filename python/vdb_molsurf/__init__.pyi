@@ -121,7 +121,8 @@ class Surface:
     def save(self, path: Path, *, replace: bool = True, panels: Panels = None, walls: Walls = None, crisp: bool = False,
              center: bool = False, print_scale: float | None = None, label: Labels = (), ruler: Rulers = ()) -> None: ...
     def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True, center: bool = False,
-               fog_density: float | None = None) -> None: ...
+               fog_density: float | None = None, labels: Literal["int", "float"] | None = None, one_box: bool = False,
+               mips: int | None = None) -> None: ...
     def to_apbs(self, folder: Path, *, apbs_grid: Path | None = None, pdie: float = 2.0, sdie: float = 78.54,
                 ion_conc: float = 0.0, replace: bool = True) -> None: ...
     def view(self, height: int = 480, panels: Panels = None) -> Page: ...
@@ -189,7 +190,7 @@ class Molecule:
         interfaces: bool = False,
         color: str = ...,
         range: str | Sequence[object] = ...,
-        palette: Literal["viridis", "cividis", "batlow", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
+        palette: Literal["viridis", "cividis", "batlow", "OrRd", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
         value_of: Literal["atom", "residue"] = "atom",
         flat_values: bool = False,
         outward: float = ...,
@@ -304,7 +305,7 @@ def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
     interfaces: bool = False,
     color: str = ...,
     range: str | Sequence[object] = ...,
-    palette: Literal["viridis", "cividis", "batlow", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
+    palette: Literal["viridis", "cividis", "batlow", "OrRd", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
     value_of: Literal["atom", "residue"] = "atom",
     flat_values: bool = False,
     outward: float = ...,
