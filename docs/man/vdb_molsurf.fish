@@ -98,7 +98,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l tunnels-from 
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l tunnel-probe -r -d 'tunnels are at least as wide as a ball of this radius [Å],'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l for -x -a 'apbs blender blender4 houdini usd unreal arnold' -d 'blender, blender4 (up to 4.5), houdini, usd, unreal,'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l fog-density -r -d 'optical depth of an Å of fog at density 1 in the program,'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l labels -x -a 'int float' -d 'type of atom_id, chain_id, group_id and pocket_id in a .vdb:'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l ids -x -a 'int float' -d 'type of atom_id, chain_id, group_id and pocket_id in a .vdb:'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l one-box -d 'all grids of a .vdb have one box of active voxels'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l mips -r -d 'N coarser levels of density and Cd in a .vdb, each with'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l center -d 'the middle of the surface comes to the origin'

@@ -23,7 +23,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
     "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
     "build:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd' 'unreal' 'arnold'; return ;;
-    "build:--labels") compadd -- 'int' 'float'; return ;;
+    "build:--ids") compadd -- 'int' 'float'; return ;;
     "build:--view") compadd -- 'auto'; return ;;
     "build:--background") compadd -- 'transparent'; return ;;
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -45,7 +45,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
     "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
     "batch:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd' 'unreal' 'arnold'; return ;;
-    "batch:--labels") compadd -- 'int' 'float'; return ;;
+    "batch:--ids") compadd -- 'int' 'float'; return ;;
     "batch:--view") compadd -- 'auto'; return ;;
     "batch:--background") compadd -- 'transparent'; return ;;
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
@@ -165,7 +165,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--tunnel-probe:tunnels are at least as wide as a ball of this radius [Å],'
       '--for:blender, blender4 (up to 4.5), houdini, usd, unreal,'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
-      '--labels:type of atom_id, chain_id, group_id and pocket_id in a .vdb\:'
+      '--ids:type of atom_id, chain_id, group_id and pocket_id in a .vdb\:'
       '--one-box:all grids of a .vdb have one box of active voxels'
       '--mips:N coarser levels of density and Cd in a .vdb, each with'
       '--center:the middle of the surface comes to the origin'
@@ -277,7 +277,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--tunnel-probe:tunnels are at least as wide as a ball of this radius [Å],'
       '--for:blender, blender4 (up to 4.5), houdini, usd, unreal,'
       '--fog-density:optical depth of an Å of fog at density 1 in the program,'
-      '--labels:type of atom_id, chain_id, group_id and pocket_id in a .vdb\:'
+      '--ids:type of atom_id, chain_id, group_id and pocket_id in a .vdb\:'
       '--one-box:all grids of a .vdb have one box of active voxels'
       '--mips:N coarser levels of density and Cd in a .vdb, each with'
       '--center:the middle of the surface comes to the origin'

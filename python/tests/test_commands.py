@@ -126,7 +126,7 @@ def test_unreal_takes_a_fog(tmp_path):
     plain = ms.read(DATA / "1crn.pdb", voxel=1)
     with pytest.raises(ms.OptionError, match="unreal: expected a fog.*fields"):
         plain.surface().to_vdb(tmp_path / "a.vdb", "unreal")
-    plain.surface(fields="density,Cd,atom_id", color="element").to_vdb(tmp_path / "a.vdb", "unreal", labels="float", mips=1)
+    plain.surface(fields="density,Cd,atom_id", color="element").to_vdb(tmp_path / "a.vdb", "unreal", ids="float", mips=1)
     text = subprocess.run([command("vdb_molsurf"), "info", tmp_path / "a.vdb"], capture_output=True, text=True, check=True).stdout
     assert set(re.findall("  grid (.*)", text)) == {"density_level_0", "density_level_1", "Cd_level_0", "Cd_level_1", "atom_id"}
     assert text.count("is_saved_as_half_float true") == 5

@@ -438,21 +438,21 @@ class Surface:
         except _core.OutputError as error:
             raise type(error)(str(error).replace("`force` replaces it", "replace=True replaces it")) from None
 
-    def to_vdb(self, path, scene=None, *, replace=True, center=False, fog_density=None, labels=None, one_box=False, mips=None):
+    def to_vdb(self, path, scene=None, *, replace=True, center=False, fog_density=None, ids=None, one_box=False, mips=None):
         """Writes the grids as a .vdb for "blender", "blender4", "houdini", "usd", "unreal" or "arnold", perhaps with "=SCALE"; None: in Å, as they are.
 
         They are the level set and those of `fields`: Blender shows a fog, which is fields="density".
 
         center: moves the middle of the surface to the origin.
         fog_density: optical depth of an Å of fog at density 1 in the program; without it values of density are 0 to 1.
-        labels: "float" for readers without int32: the type of atom_id, chain_id, group_id and pocket_id; None: "int".
+        ids: "float" for readers without int32: the type of atom_id, chain_id, group_id and pocket_id; None: "int".
         one_box: gives all grids one box of active voxels.
         mips: coarser levels of density and Cd, 0 to 10: density_level_0, density_level_1, ..., each with voxels twice as large.
         """
         path = os.fspath(path)
         if not path.endswith(".vdb"):
             raise ValueError("to_vdb: expected a name that ends in .vdb")
-        self._save(path, replace, {"for": scene, "center": center, "fog-density": fog_density, "labels": labels,
+        self._save(path, replace, {"for": scene, "center": center, "fog-density": fog_density, "ids": ids,
                                     "one-box": one_box, "mips": mips})
 
     def to_apbs(self, folder, *, apbs_grid=None, pdie=2.0, sdie=78.54, ion_conc=0.0, replace=True):

@@ -151,7 +151,7 @@ class Grids(ToolTest):
         """Old readers get the whole file, and convert the same surface."""
         words = [*DIMER, *FAST, "--fields", "atom_id,chain_id,density"]
         for kind in ("int", "float"):
-            self.check(0, *words, "--labels", kind, "-o", f"{kind}.vdb")
+            self.check(0, *words, "--ids", kind, "-o", f"{kind}.vdb")
             self.check(0, "convert", f"{kind}.vdb", "--color", "chain", "-o", f"{kind}.ply")
         self.assertEqual((self.folder / "int.ply").read_bytes(), (self.folder / "float.ply").read_bytes())
         grids, _ = vdb.readAll(str(self.folder / "float.vdb"))
@@ -160,7 +160,7 @@ class Grids(ToolTest):
         self.assertEqual({item.value for item in labels["chain_id"].citerOnValues()}, {0, 1})
         box = labels["surface"].evalActiveVoxelBoundingBox()
         self.assertNotEqual(box, labels["density"].evalActiveVoxelBoundingBox())
-        self.check(0, *words, "--labels", "float", "--one-box", "-o", "box.vdb")
+        self.check(0, *words, "--ids", "float", "--one-box", "-o", "box.vdb")
         grids, _ = vdb.readAll(str(self.folder / "box.vdb"))
         self.assertEqual(len({grid.evalActiveVoxelBoundingBox() for grid in grids}), 1)
 

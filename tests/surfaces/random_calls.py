@@ -163,7 +163,7 @@ def surface_options(rng):
         lambda: ["--frames", "all", "--tunnels-from", rng.choice(("A/1-3", "1,2,0")), "-o", "out.tunnel_frames.csv"],
         lambda: ["--memory", rng.choice(("50M", "100M", "4G"))],
         lambda: ["--for", rng.choice(("blender", "blender4", "houdini", "usd", "blender=nm", "unreal", "arnold=0.1"))],
-        lambda: ["--labels", rng.choice(("int", "float", "double")), "--fields", "atom_id,density", *rng.choice(([], ["--one-box"]))],
+        lambda: ["--ids", rng.choice(("int", "float", "double")), "--fields", "atom_id,density", *rng.choice(([], ["--one-box"]))],
         lambda: ["--mips", rng.choice(("0", "2", "10", "11", "x")), "--fields", "density,Cd"],
         lambda: ["--print-scale", "1", "--min-wall", rng.choice(("1", "5", "60", "1e5"))],
         lambda: ["--spline-level", rng.choice(("1", "2"))],

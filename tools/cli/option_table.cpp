@@ -556,12 +556,12 @@ OptionGroup sceneOptions()
         return stored(c.forApbs ? "apbs" : nameOf(c.scene.host));
     };
     center.shownIn = 0; // pictures look the same
-    Option labels = fileOption("labels", wholes), mips = fileOption("mips", wholes);
-    labels.stored = [](const CommandLine& c) { return stored(nameOf(c.scene.form.labels)); };
+    Option ids = fileOption("ids", wholes), mips = fileOption("mips", wholes);
+    ids.stored = [](const CommandLine& c) { return stored(nameOf(c.scene.form.ids)); };
     mips.stored = [](const CommandLine& c) { return stored(std::to_string(c.scene.form.mips)); };
     return {
         "Scene",
-        {host, numberKept(MOLSURF_OF(scene.fogDensity), fileOption("fog-density", wholes)), labels,
+        {host, numberKept(MOLSURF_OF(scene.fogDensity), fileOption("fog-density", wholes)), ids,
          kept(MOLSURF_OF(scene.form.oneBox), fileOption("one-box", wholes)), mips,
          kept(MOLSURF_OF(center), center)},
         {{"vdb_molsurf 1crn.pdb --for blender -o 1crn.vdb", "a volume with colours for Blender"},

@@ -50,7 +50,7 @@ GridBase::Ptr asFloats(const Int32Grid& labels)
 {
     for (auto value = labels.cbeginValueOn(); value; ++value)
         if (*value > most)
-            throw Error(ErrorKind::Usage, "`labels` float: grid " + labels.getName() +
+            throw Error(ErrorKind::Usage, "`ids` float: grid " + labels.getName() +
                                               " has the label " + std::to_string(*value) +
                                               ", expected at most " + std::to_string(most));
     return labelsIn<FloatGrid>(labels);
@@ -118,9 +118,9 @@ openvdb::BBoxd boxOf(const openvdb::GridPtrVec& grids)
 
 } // namespace
 
-const char* nameOf(LabelType type)
+const char* nameOf(IdType type)
 {
-    return type == LabelType::Int ? "int" : "float";
+    return type == IdType::Int ? "int" : "float";
 }
 
 openvdb::GridCPtrVec formed(const openvdb::GridCPtrVec& grids, const GridForm& form)
@@ -128,7 +128,7 @@ openvdb::GridCPtrVec formed(const openvdb::GridCPtrVec& grids, const GridForm& f
     openvdb::GridPtrVec out;
     for (const GridBase::ConstPtr& grid : grids) {
         const auto labels = openvdb::gridConstPtrCast<Int32Grid>(grid);
-        const bool converts = labels && form.labels == LabelType::Float;
+        const bool converts = labels && form.ids == IdType::Float;
         const GridBase::Ptr own = converts ? asFloats(*labels) : sharedCopy(grid);
         addLevels(own, form.mips, out);
     }
