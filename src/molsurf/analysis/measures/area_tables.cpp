@@ -97,9 +97,8 @@ Numbers sumsOf(const BallNames& names, const Numbers& values)
 }
 
 /// Areas of the first balls, 0 for those of another class.
-Numbers areasOf(Polarity wanted, const BallSet& atoms, const Numbers& areas)
+Numbers areasOf(Polarity wanted, const std::vector<Polarity>& classes, const Numbers& areas)
 {
-    const std::vector<Polarity> classes = polarityOf(atoms);
     Numbers out;
     for (std::size_t i = 0; i < areas.size(); ++i)
         out.push_back(classes[i] == wanted ? areas[i] : 0.0);
@@ -214,8 +213,9 @@ Table atomTable(const BallSet& atoms, const MolecularSurface& result)
     Table table{"atoms", {}};
     addAtoms(atoms, result.ballAreas.size(), table);
     table.columns.push_back({"area", result.ballAreas});
+    const std::vector<Polarity> classes = polarityOf(atoms);
     for (const auto& [name, polarity] : classColumns)
-        table.columns.push_back({name, areasOf(polarity, atoms, result.ballAreas)});
+        table.columns.push_back({name, areasOf(polarity, classes, result.ballAreas)});
     Numbers depth = result.ballDepths;
     depth.resize(std::min(depth.size(), result.ballAreas.size())); // without images
     if (!depth.empty()) table.columns.push_back({"depth_A", std::move(depth)});
@@ -245,8 +245,9 @@ Table residueTable(const BallSet& atoms, double probe, const MolecularSurface& r
     residues.moveTo(table);
     table.columns.push_back({"atoms", std::move(count)});
     table.columns.push_back({"area", std::move(area)});
+    const std::vector<Polarity> classes = polarityOf(atoms);
     for (const auto& [name, polarity] : classColumns) {
-        const Numbers sums = sumsOf(names, areasOf(polarity, atoms, result.ballAreas));
+        const Numbers sums = sumsOf(names, areasOf(polarity, classes, result.ballAreas));
         Numbers column;
         for (std::size_t r = 0; r < sums.size(); ++r)
             if (balls[r] > 0) column.push_back(sums[r]);

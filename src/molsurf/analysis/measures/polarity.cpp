@@ -2,9 +2,10 @@
 #include "molsurf/analysis/measures/polarity.h"
 
 #include "molsurf/molecule/selection/ball_names.h"
+#include "molsurf/molecule/selection/near_atoms.h"
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
 
 namespace molsurf
 {
@@ -28,22 +29,16 @@ Polarity ofElement(std::uint8_t element)
 std::vector<Polarity> polarityOf(const BallSet& atoms)
 {
     const BallNames& names = *atoms.names;
-    std::vector<std::vector<std::size_t>> heavy(names.residues.size());
+    std::vector<AtomSite> sites;
+    for (std::size_t i = 0; i < names.atoms.size(); ++i)
+        sites.push_back(
+            {atoms.balls[i].center, names.residueOf[i], names.atoms[i].element > hydrogen});
+    const std::vector<std::int32_t> heavy = heavyAtoms(sites, names.residues.size());
     std::vector<Polarity> out;
-    for (std::size_t i = 0; i < names.atoms.size(); ++i) {
+    for (std::size_t i = 0; i < sites.size(); ++i) {
         const std::uint8_t element = names.atoms[i].element;
-        out.push_back(ofElement(element));
-        if (element > hydrogen) heavy[std::size_t(names.residueOf[i])].push_back(i);
-    }
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        if (names.atoms[i].element != hydrogen) continue;
-        double least = std::numeric_limits<double>::infinity();
-        for (const std::size_t k : heavy[std::size_t(names.residueOf[i])]) {
-            const double square = (atoms.balls[k].center - atoms.balls[i].center).lengthSqr();
-            if (square >= least) continue;
-            least = square;
-            out[i] = out[k];
-        }
+        out.push_back(
+            ofElement(element == hydrogen ? names.atoms[std::size_t(heavy[i])].element : element));
     }
     return out;
 }

@@ -4,6 +4,7 @@
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/molecule/selection/ball_names.h"
+#include "molsurf/molecule/selection/near_atoms.h"
 #include "molsurf/molecule/selection/scalar_map.h"
 #include "molsurf/molecule/structure/load_text.h"
 #include "molsurf/molecule/structure/text_fields.h"
@@ -249,40 +250,16 @@ std::string textOf(const ValueBy& by)
 namespace
 {
 
-/// For each atom of the structure the heavy atom of its residue that is nearest to it, if it is a
-/// hydrogen; else itself.
-std::vector<std::int32_t> heavyAtoms(const Structure& structure)
-{
-    constexpr std::uint8_t hydrogen = 1;
-    std::vector<std::int32_t> out(structure.atoms.size());
-    std::vector<std::vector<std::int32_t>> heavy(structure.residues.size());
-    const auto count = std::int32_t(out.size());
-    for (std::int32_t i = 0; i < count; ++i) {
-        const Atom& atom = structure.atoms[std::size_t(i)];
-        if (atom.element != hydrogen) heavy[std::size_t(atom.residue)].push_back(i);
-    }
-    for (std::int32_t i = 0; i < count; ++i) {
-        const Atom& atom = structure.atoms[std::size_t(i)];
-        out[std::size_t(i)] = i;
-        double least = std::numeric_limits<double>::max();
-        if (atom.element != hydrogen) continue;
-        for (const std::int32_t k : heavy[std::size_t(atom.residue)]) {
-            const Atom& other = structure.atoms[std::size_t(k)];
-            const double d = (Vec3d(other.position) - Vec3d(atom.position)).lengthSqr();
-            if (d >= least) continue;
-            least = d;
-            out[std::size_t(i)] = k;
-        }
-    }
-    return out;
-}
-
 /// Gives hydrogens without a value of their own that of their heavy atom.
 /// @param[in] zeroIsNone  whether 0 is no value of a hydrogen
 void lendToHydrogens(const Structure& structure, const std::vector<Ball>& balls, bool zeroIsNone,
                      BallValues& values)
 {
-    const std::vector<std::int32_t> heavy = heavyAtoms(structure);
+    constexpr std::uint8_t hydrogen = 1;
+    std::vector<AtomSite> sites;
+    for (const Atom& atom : structure.atoms)
+        sites.push_back({atom.position, atom.residue, atom.element != hydrogen});
+    const std::vector<std::int32_t> heavy = heavyAtoms(sites, structure.residues.size());
     std::vector<float> ofAtom(structure.atoms.size(), missing);
     for (std::size_t i = 0; i < balls.size(); ++i)
         ofAtom[std::size_t(balls[i].atom)] = values.valueOf[i];

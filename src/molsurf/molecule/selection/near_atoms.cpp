@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace molsurf
 {
@@ -55,6 +56,26 @@ std::vector<char> nearAtoms(const Structure& structure, const std::vector<char>&
         });
     }
     return near;
+}
+
+std::vector<std::int32_t> heavyAtoms(const std::vector<AtomSite>& atoms, std::size_t residues)
+{
+    std::vector<std::int32_t> out(atoms.size());
+    std::vector<std::vector<std::int32_t>> heavy(residues);
+    for (std::size_t i = 0; i < atoms.size(); ++i)
+        if (atoms[i].isHeavy) heavy[std::size_t(atoms[i].residue)].push_back(std::int32_t(i));
+    for (std::size_t i = 0; i < atoms.size(); ++i) {
+        out[i] = std::int32_t(i);
+        if (atoms[i].isHeavy) continue;
+        double least = std::numeric_limits<double>::max();
+        for (const std::int32_t k : heavy[std::size_t(atoms[i].residue)]) {
+            const double square = (atoms[std::size_t(k)].position - atoms[i].position).lengthSqr();
+            if (square >= least) continue;
+            least = square;
+            out[i] = k;
+        }
+    }
+    return out;
 }
 
 } // namespace molsurf

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <string>
 
 namespace molsurf
@@ -27,33 +28,19 @@ GridBase::Ptr sharedCopy(const GridBase::ConstPtr& grid)
     return openvdb::ConstPtrCast<GridBase>(grid->copyGrid());
 }
 
-constexpr std::int32_t most = 1 << 24; // the largest whole number below which floats hold all
-
 /// Grids of labels in a file.
 constexpr const char* labelGrids[] = {"atom_id", "chain_id", "group_id", "pocket_id"};
-
-/// Labels in another type.
-template<typename To, typename From>
-typename To::Ptr labelsIn(const From& labels)
-{
-    const auto out = To::create(typename To::ValueType(labels.background()));
-    out->setTransform(labels.transform().copy());
-    for (auto meta = labels.beginMeta(); meta != labels.endMeta(); ++meta)
-        out->insertMeta(meta->first, *meta->second); // name, class and creator
-    for (auto value = labels.cbeginValueOn(); value; ++value)
-        out->fill(value.getBoundingBox(), typename To::ValueType(*value), true);
-    return out;
-}
 
 /// The labels of voxels as floats.
 GridBase::Ptr asFloats(const Int32Grid& labels)
 {
+    constexpr std::int32_t most = 1 << 24; // the largest whole number below which floats hold all
     for (auto value = labels.cbeginValueOn(); value; ++value)
         if (*value > most)
             throw Error(ErrorKind::Usage, "`ids` float: grid " + labels.getName() +
                                               " has the label " + std::to_string(*value) +
                                               ", expected at most " + std::to_string(most));
-    return labelsIn<FloatGrid>(labels);
+    return std::make_shared<FloatGrid>(labels);
 }
 
 /// The levels of a grid.
@@ -125,6 +112,7 @@ const char* nameOf(IdType type)
 
 openvdb::GridCPtrVec formed(const openvdb::GridCPtrVec& grids, const GridForm& form)
 {
+    if (!form.changes()) return grids;
     openvdb::GridPtrVec out;
     for (const GridBase::ConstPtr& grid : grids) {
         const auto labels = openvdb::gridConstPtrCast<Int32Grid>(grid);
@@ -149,7 +137,7 @@ openvdb::GridPtrVec withIntLabels(const openvdb::GridPtrVec& grids)
         const auto floats = openvdb::gridPtrCast<FloatGrid>(grid);
         const bool isLabel =
             floats && std::count(std::begin(labelGrids), std::end(labelGrids), grid->getName());
-        out.push_back(isLabel ? labelsIn<Int32Grid>(*floats) : grid);
+        out.push_back(isLabel ? std::make_shared<Int32Grid>(*floats) : grid);
     }
     return out;
 }

@@ -120,7 +120,7 @@ double factorOf(const openvdb::GridBase& grid, const Scene& scene)
 openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene& scene,
                                   bool isMoved)
 {
-    if (!scene.known() && !isMoved) return scene.form.changes() ? formed(grids, scene.form) : grids;
+    if (!scene.known() && !isMoved) return formed(grids, scene.form);
     openvdb::GridCPtrVec out;
     for (const auto& grid : grids) {
         if (rowOf(scene.host).fogsAlone && lengthPower(*grid) == 1) continue;
@@ -144,7 +144,7 @@ openvdb::GridCPtrVec placeInScene(const openvdb::GridCPtrVec& grids, const Scene
         throw Error(ErrorKind::Usage, std::string("`for` ") + nameOf(scene.host) +
                                           ": expected a fog, got distances alone [hint: `fields` "
                                           "density,Cd]");
-    return scene.form.changes() ? formed(out, scene.form) : out;
+    return formed(out, scene.form);
 }
 
 void describeScene(const Scene& scene, openvdb::MetaMap& metadata)
