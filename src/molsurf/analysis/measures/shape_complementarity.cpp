@@ -65,17 +65,6 @@ std::vector<char> blockedBy(const BallIndex& balls, const ExcludedPoints& points
     return blocked;
 }
 
-/// The square of the distance from a point to a box [Å^2].
-double squareTo(const Box& box, const Vec3d& x)
-{
-    double sum = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const double d = std::max(std::max(box.low[a] - x[a], x[a] - box.high[a]), 0.0);
-        sum += d * d;
-    }
-    return sum;
-}
-
 /// The coordinates of a run of points, the last one repeated where it has fewer.
 struct Run {
     double x[run], y[run], z[run];
@@ -118,7 +107,7 @@ public:
         const double square = reach * reach;
         const auto isIn = [&](std::size_t n) {
             double unused[run];
-            return squareTo(boxes_[n], x) < square &&
+            return boxes_[n].squareTo(x) < square &&
                    squaresTo(runs_[n], x.x(), x.y(), x.z(), unused) < square;
         };
         if (first < runs_.size() && isIn(first)) return true;
@@ -138,7 +127,7 @@ public:
     {
         std::ptrdiff_t best = -1;
         forEachNear(x, std::sqrt(most), [&](std::size_t n) {
-            if (squareTo(boxes_[n], x) > most) return;
+            if (boxes_[n].squareTo(x) > most) return;
             double squares[run];
             const double square = squaresTo(runs_[n], x.x(), x.y(), x.z(), squares);
             if (square >= most) return;

@@ -9,6 +9,7 @@
 
 #include <openvdb/Types.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -23,6 +24,17 @@ struct Box {
     static Box about(const openvdb::Vec3d& centre, double radius)
     {
         return {centre - openvdb::Vec3d(radius), centre + openvdb::Vec3d(radius)};
+    }
+
+    /// The square of the distance from a point, 0 in the box [Å^2].
+    double squareTo(const openvdb::Vec3d& x) const
+    {
+        double sum = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            const double d = std::max({0.0, low[a] - x[a], x[a] - high[a]});
+            sum += d * d;
+        }
+        return sum;
     }
 };
 

@@ -2,6 +2,7 @@
 #include "molsurf/kernel/balls/dense_caps.h"
 
 #include "molsurf/kernel/balls/ball_caps.h"
+#include "molsurf/kernel/balls/box_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -185,28 +186,11 @@ DenseCaps::DenseCaps(const std::vector<PlacedBall>& balls) : balls_(balls)
     }
 }
 
-namespace
-{
-
-/// The square of the distance between x and a box, both relative to the same point [Å^2].
-double distance2(const Vec3d& x, const Vec3d& low, const Vec3d& high)
-{
-    double sum = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        const double d = std::max({0.0, low[a] - x[a], x[a] - high[a]});
-        sum += d * d;
-    }
-    return sum;
-}
-
-} // namespace
-
 double DenseCaps::powerFrom(const PlacedBall& ball, const Box& box) const
 {
     if (box.low[0] > box.high[0]) return std::numeric_limits<double>::max();
-    return distance2(Vec3d(0.0), offset(ball, {box.low, 0.0, 0}),
-                     offset(ball, {box.high, 0.0, 0})) -
-           box.largest * box.largest;
+    const molsurf::Box around{offset(ball, {box.low, 0.0, 0}), offset(ball, {box.high, 0.0, 0})};
+    return around.squareTo(Vec3d(0.0)) - box.largest * box.largest;
 }
 
 bool DenseCaps::mayReach(const PlacedBall& ball, const Box& box, const PowerCell& cell) const
@@ -219,7 +203,7 @@ bool DenseCaps::mayReach(const PlacedBall& ball, const Box& box, const PowerCell
     const double room = box.largest * box.largest - ball.radius * ball.radius +
                         2.0 * PowerCell::tolerance * farthest;
     for (const Vec3d& x : cell.outerPoints()) {
-        if (distance2(x, low, high) <= x.lengthSqr() + room) return true;
+        if (molsurf::Box{low, high}.squareTo(x) <= x.lengthSqr() + room) return true;
     }
     return false;
 }
