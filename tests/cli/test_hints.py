@@ -736,10 +736,10 @@ class Hints(Followed):
 
     @needs("memory")
     def test_little_memory(self):
-        self.follow("scale/bricks/plan_bricks.h", "or --memory 0.31G, which makes it in bricks",
-                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.195 -o a.vdb",
-                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.4 -o b.vdb",
-                    "ulimit -v 400000; vdb_molsurf large.xyzr --surface vdw --voxel 0.195 --memory 0.31G -o c.vdb")
+        large = "vdb_molsurf large.xyzr --surface vdw --voxel"
+        self.follow("scale/bricks/plan_bricks.h", "which makes it in bricks", f"ulimit -v 460000; {large} 0.195 -o a.vdb",
+                    f"ulimit -v 460000; {large} 0.4 -o b.vdb",
+                    f"ulimit -v 460000; {large} 0.195 --$({large} 0.195 -o a.vdb 2>&1 | grep -o 'memory [0-9.]*G') -o c.vdb")
         self.follow("tools/build.cpp", "a surface of a larger --voxel",
                     "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 250000; "
                     "vdb_molsurf convert a.vdb -o a.ply",

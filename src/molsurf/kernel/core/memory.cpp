@@ -19,12 +19,18 @@ namespace molsurf
 namespace
 {
 
-/// Resident memory of this process [byte]; 0 where the system does not tell it.
-double residentMemory()
+/// Memory of this process [byte]; 0 where the system does not give it.
+struct ProcessMemory {
+    std::size_t mapped = 0;   ///< all of its addresses: libraries, stacks and heaps, too
+    std::size_t resident = 0; ///< what of it is in memory
+};
+
+ProcessMemory processMemory()
 {
-    std::size_t pages = 0, resident = 0;
-    std::ifstream("/proc/self/statm") >> pages >> resident;
-    return double(resident) * double(sysconf(_SC_PAGE_SIZE));
+    ProcessMemory memory;
+    std::ifstream("/proc/self/statm") >> memory.mapped >> memory.resident;
+    const std::size_t page = std::size_t(sysconf(_SC_PAGE_SIZE));
+    return {page * memory.mapped, page * memory.resident};
 }
 
 std::size_t mostOf(std::size_t memory)
@@ -38,8 +44,12 @@ std::size_t availableMemory()
 {
     std::size_t bytes = std::size_t(sysconf(_SC_PHYS_PAGES)) * std::size_t(sysconf(_SC_PAGE_SIZE));
     rlimit limit;
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-        bytes = std::min(bytes, std::size_t(limit.rlim_cur));
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+        // It counts addresses: what is mapped and not in memory is left out.
+        const ProcessMemory memory = processMemory();
+        const std::size_t unused = memory.mapped - std::min(memory.mapped, memory.resident);
+        bytes = std::min(bytes, limit.rlim_cur - std::min<std::size_t>(limit.rlim_cur, unused));
+    }
     std::size_t ofGroup = 0; // "max" where there is none
     if (std::ifstream("/sys/fs/cgroup/memory.max") >> ofGroup) bytes = std::min(bytes, ofGroup);
     return bytes;
@@ -47,13 +57,13 @@ std::size_t availableMemory()
 
 bool hasMemory(double more, std::size_t memory)
 {
-    return residentMemory() + more <= double(mostOf(memory));
+    return double(processMemory().resident) + more <= double(mostOf(memory));
 }
 
 void needMemory(const std::string& what, double more, std::size_t memory)
 {
     if (hasMemory(more, memory)) return;
-    const double bytes = residentMemory() + more;
+    const double bytes = double(processMemory().resident) + more;
     std::string text = what + " about " + sizeText(bytes) + " of memory, and there are " +
                        sizeText(double(mostOf(memory)));
     if (memory > 0)
