@@ -129,7 +129,9 @@ nb::list describeSettings()
         one["low"] = row.low;
         one["high"] = row.high;
         one["of"] = parts[std::size_t(row.of)];
-        one["default"] = row.get ? nb::cast(row.get(Settings())) : nb::none();
+        one["default"] = row.get                           ? nb::cast(row.get(Settings()))
+                         : row.type == SettingType::Switch ? nb::cast(false)
+                                                           : nb::none();
         out.append(one);
     }
     return out;
@@ -315,7 +317,6 @@ MadeSurface surfaceOf(std::shared_ptr<BallSet> balls, const std::string& source,
     for (std::int32_t& atom : out.atom)
         if (atom >= own) atom = images[std::size_t(atom - own)];
     Report& report = out.result.report;
-    report.version = MOLSURF_VERSION;
     report.input = source;
     report.voxel = options.grid ? options.voxel : 0.0;
     report.warnings.insert(report.warnings.begin(), out.atoms->record.warnings.begin(),
@@ -411,6 +412,16 @@ nb::tuple gradientsOf(MadeSurface& surface, const How& how)
                           owned<double>(std::move(found.area)), gaps, ridges);
 }
 
+/// Finds the contacts that a table shows, unless the surface has them.
+void needContacts(MadeSurface& surface)
+{
+    if (!surface.result.contacts.empty()) return;
+    checkWhole(surface, "contacts");
+    surface.result.contacts = run(How(), [&](Progress& p) {
+        return contactAreas(surface.atoms->balls, probeOf(surface.options), p);
+    });
+}
+
 nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::string& level)
 {
     const BallSet& atoms = *surface.atoms;
@@ -434,9 +445,7 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
             throw Error(ErrorKind::Usage, "table: expected a surface with `tunnelsFrom`, got none");
         return dictOf(result.report.tunnels->table(atoms));
     }
-    if (result.contacts.empty())
-        result.contacts =
-            run(How(), [&](Progress& p) { return contactAreas(atoms.balls, probe, p); });
+    needContacts(surface);
     for (const ContactLevel one : {ContactLevel::Atom, ContactLevel::Chain})
         if (level == nameOf(one)) return dictOf(contactTable(atoms, one, result));
     return dictOf(contactTable(atoms, ContactLevel::Residue, result));
@@ -586,9 +595,13 @@ using Beside = std::tuple<std::string, std::vector<std::pair<std::string, const 
                           std::vector<std::pair<std::string, const Molecule*>>>;
 
 /// Writes a file, with the options of files and pictures that are given.
-void save(const MadeSurface& surface, const std::string& path, bool replace, const Words& settings,
+void save(MadeSurface& surface, const std::string& path, bool replace, const Words& settings,
           const Beside& beside)
 {
+    constexpr std::string_view contacts = ".contacts.csv";
+    if (path.size() > contacts.size() &&
+        path.compare(path.size() - contacts.size(), contacts.size(), contacts) == 0)
+        needContacts(surface);
     nb::gil_scoped_release free;
     const auto& [name, panels, show] = beside;
     std::vector<ShownSurface> shown = {
@@ -701,13 +714,9 @@ void addSurface(nb::module_& m)
     type.def("report_text",
              [](const MadeSurface& s) { return bytesOf(reportText(s.result.report)); })
         .def("contacts",
-             [](const MadeSurface& s) {
-                 checkWhole(s, "contacts");
-                 if (!s.result.contacts.empty())
-                     return pairsOf(std::vector<ContactArea>(s.result.contacts));
-                 return pairsOf(run(How(), [&](Progress& p) {
-                     return contactAreas(s.atoms->balls, probeOf(s.options), p);
-                 }));
+             [](MadeSurface& s) {
+                 needContacts(s);
+                 return pairsOf(std::vector<ContactArea>(s.result.contacts));
              })
         .def("distance",
              [](MadeSurface& s, const Positions& points, Listener progress, int threads) {
@@ -736,6 +745,7 @@ void addFunctions(nb::module_& m)
 {
     m.def("settings", describeSettings);
     m.def("structure_endings", structureEndings);
+    m.def("surface_endings", surfaceEndings);
     // Whether a colour needs what read() takes from a file; what is no colour does not.
     m.def("is_of_file", [](const std::string& color) {
         try {

@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 # The folders of src/molsurf, kernel/, molecule/, analysis/, show/ and scale/ in their order: each may include those
 # before it, if it is not named here.
 FOLDERS = ["core", "grid", "balls", "structure", "selection", "spline", "levelset", "topology", "pockets", "flow", "mesh", "pipeline",
-           "proximity", "measures", "color", "io", "picture", "surface", "bricks", "tools"]
+           "proximity", "measures", "color", "io", "picture", "surface", "request", "bricks", "tools"]
 # The headers of the face, src/molsurf/*.h, include each other alone; each is for its folder and those behind it. (The
 # function compare() of mesh.h is in surface/compare.cpp: it is for callers of the library.)
 FACE = {"error.h": "core", "progress.h": "core", "ball.h": "core", "kernel.h": "flow",

@@ -18,6 +18,8 @@
 #include "molsurf/kernel/pipeline/check_balls.h"
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/kernel/spline/curvature.h"
+#include "molsurf/request/format_table.h"
+#include "molsurf/request/usd_stage.h"
 #include "molsurf/scale/bricks/plan_bricks.h"
 #include "molsurf/show/io/output_folders.h"
 #include "molsurf/surface.h"
@@ -59,16 +61,6 @@ void completeReport(const CommandLine& call, const BallSet& balls, const Report&
 {
     beginReport(call, report);
     report.voxel = call.options.grid ? call.options.voxel : 0.0;
-    for (const Instance& instance : balls.placement.instances) {
-        Report::Copy& copy = report.instances.emplace_back();
-        copy.part = instance.part;
-        copy.name = instance.name;
-        for (std::size_t row = 0; row < 3; ++row) {
-            const auto& r = instance.rotation[row];
-            copy.matrix[row] = {r[0], r[1], r[2], instance.translation[int(row)]};
-        }
-        copy.matrix[3] = {0.0, 0.0, 0.0, 1.0};
-    }
     addReading(read, report);
 }
 
@@ -332,8 +324,6 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     if (extend) extend(result);
     for (const std::string& table : call.areas)
         result.report.tables.push_back(areaTable(table, call, balls, result));
-    const std::string creator = "vdb_molsurf " MOLSURF_VERSION;
-    for (const auto& grid : result.grids()) grid->setCreator(creator);
 
     const auto bodies = std::make_shared<Mesh>(std::move(result.pocketBodies));
     if (call.writes(Numbered)) numberOutputs(result.report.pockets->list.size(), call);
@@ -341,8 +331,11 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
         std::make_shared<Bodies>(drawnBodies(call, balls, *bodies, result, terminal));
     showBodies(*drawn, call.picture);
     if (call.center) centerMesh(call, result, drawn->mesh);
-    if (!call.panels.empty()) makePanels(call, balls, result.mesh, terminal);
-    ShownMeshes shown = shownMeshes(call, balls, result.mesh, terminal);
+    if (!call.panels.empty()) {
+        call.firstName = firstName(call);
+        makePanels(call, balls, result.mesh, terminal);
+    }
+    ShownMeshes shown = shownMeshes(call, call.options, balls, result.mesh, {}, terminal);
     shown.bodies = bodies;
     shown.drawnBodies = drawn;
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);

@@ -28,11 +28,6 @@
 namespace molsurf::tool
 {
 
-openvdb::Vec3d originOf(const CommandLine& call)
-{
-    return call.center ? call.scene.center : openvdb::Vec3d(0.0);
-}
-
 namespace
 {
 
@@ -133,11 +128,11 @@ PanelSurface readPanel(const CommandLine& call, const Panel& what, const BallSet
 {
     PanelSurface panel{what.kind ? nameOf(*what.kind) : inputStem(what.file),
                        first,
+                       call.options,
                        {},
                        {},
                        call.picture,
-                       bool(what.kind),
-                       ""};
+                       bool(what.kind)};
     if (what.kind) return panel;
     panel.picture.model.reset();
     panel.picture.notes.clear();
@@ -169,7 +164,7 @@ PanelSurface makePanel(const CommandLine& call, const Panel& what, const BallSet
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings)
             printLine("warning: " + panel.name + ": " + warning);
-    panel.shown = shownMeshes(other, panel.atoms, result.mesh, terminal);
+    panel.shown = shownMeshes(other, other.options, panel.atoms, result.mesh, {}, terminal);
     panel.shown.about = aboutPage(result.report.surface.kind, other.options.voxel);
     panel.mesh = std::move(result.mesh);
     return panel;
@@ -222,43 +217,6 @@ int endOf(const std::vector<PanelSurface>& panels)
         rest = false;
     }
     return rest ? 0 : notConvergedStatus;
-}
-
-DrawnSurface drawnSurface(const CommandLine& call, const BallSet& atoms, const Mesh& mesh,
-                          const ShownMeshes& shown, double turn, bool quick)
-{
-    DrawnSurface drawn{atoms, mesh, call.options, call.picture};
-    drawn.origin = originOf(call);
-    drawn.colorsCopies = call.colorsCopies();
-    drawn.borders = shown.borders;
-    drawn.legend = shown.legend;
-    drawn.look.turn += turn;
-    drawn.look.quick = quick;
-    return drawn;
-}
-
-std::vector<DrawnSurface> drawnPanels(const CommandLine& call, const DrawnSurface& first)
-{
-    std::vector<DrawnSurface> all = {first};
-    if (call.panels.empty() || !call.panelSurfaces) return all;
-    all[0].name = firstName(call);
-    auto made = call.panelSurfaces->begin();
-    for (const Panel& panel : call.panels) {
-        if (!panel.hasSurface()) {
-            all.push_back(all[0]);
-            all.back().ownEye = true;
-            lookFrom(panel.toEye, all.back().look);
-            continue;
-        }
-        DrawnSurface drawn = drawnSurface(call, made->atoms, made->mesh, made->shown);
-        drawn.look = made->picture;
-        drawn.look.turn = first.look.turn;
-        drawn.look.quick = first.look.quick;
-        drawn.name = made->name;
-        all.push_back(std::move(drawn));
-        ++made;
-    }
-    return all;
 }
 
 } // namespace molsurf::tool

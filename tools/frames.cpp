@@ -3,7 +3,6 @@
 
 #include "cli/option_table.h"
 #include "draw_result.h"
-#include "film.h"
 #include "input_files.h"
 #include "outputs.h"
 #include "picture_atoms.h"
@@ -15,12 +14,14 @@
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/molecule/selection/shown_atoms.h"
+#include "molsurf/request/usd_stage.h"
 #include "molsurf/show/io/frame_table.h"
 #include "molsurf/show/io/read_vdb.h"
 #include "molsurf/show/io/temporary_file.h"
 #include "molsurf/show/io/usda_text.h"
 #include "molsurf/show/io/write_table.h"
 #include "molsurf/show/io/write_vdb.h"
+#include "molsurf/show/picture/film.h"
 #include "molsurf/show/picture/view.h"
 #include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/field_table.h"
@@ -181,9 +182,11 @@ void addVelocities(const CommandLine& call, const BallSet& selection,
     const std::string length = call.scene.scale == 1.0 ? "Å" : "scene units";
     const VelocityUnit unit{call.scene.scale * perTime,
                             length + (call.fps > 0.0 ? " per second" : " per frame")};
-    if (call.writes(anyGrids))
+    if (call.writes(anyGrids)) {
         result.fields.push_back(
             velocityGrid(*result.surface, selection, displacement, unit, call.options, progress));
+        result.fields.back()->setCreator(result.surface->getCreator());
+    }
     if (call.writes(VertexCurvatures))
         addVelocity(selection, displacement, perTime, call.options, progress, result.mesh);
 }
@@ -258,7 +261,7 @@ public:
             lookAt(call_, source_.balls(0, choose(call_.viewed)), source_.balls(0), call_.picture);
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
         if (call_.writes(Views) && !call_.picture.frame) keepOneView();
-        options_ = optionsDigest(call_);
+        options_ = call_.frameDigest = optionsDigest(call_);
         if (!tableName_.empty()) {
             InputFiles(call_).refuse(tableName_);
             checkWritable(tableName_, true);
@@ -274,7 +277,7 @@ public:
             checkOutput(call_, output);
             films_.push_back(
                 std::make_shared<Film>(std::make_unique<OutputFile>(output.path, call_.force),
-                                       call_.fps > 0.0 ? call_.fps : filmRate));
+                                       call_.fps > 0.0 ? call_.fps : filmRate, terminal_));
             output.film = films_.back();
         }
         for (std::size_t i = 0; i < source_.size(); ++i) {

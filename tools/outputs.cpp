@@ -2,7 +2,6 @@
 #include "outputs.h"
 
 #include "commit_hash.h"
-#include "film.h"
 #include "identity.h"
 #include "input_files.h"
 #include "pocket_files.h"
@@ -12,9 +11,11 @@
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/flow/evolve.h"
 #include "molsurf/molecule/structure/archive.h"
+#include "molsurf/request/run_outputs.h"
 #include "molsurf/show/io/commit.h"
 #include "molsurf/show/io/temporary_file.h"
 #include "molsurf/show/io/write_3mf.h"
+#include "molsurf/show/picture/film.h"
 #include "molsurf/show/picture/write_html.h"
 
 #include <sys/resource.h>

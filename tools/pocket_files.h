@@ -7,7 +7,6 @@
 #include "cli/call.h"
 
 #include <cstddef>
-#include <string>
 
 namespace molsurf::tool
 {
@@ -18,8 +17,5 @@ bool wantsBodies(const CommandLine& call);
 /// Puts a file for each pocket, NAME.pocket1.ply, in the place of NAME.pockets.ply.
 /// @throws Error(ErrorKind::Output) if another output has that name
 void numberOutputs(std::size_t count, CommandLine& call);
-
-/// The name of such a file.
-std::string numberedPath(const Output& output, std::size_t number);
 
 } // namespace molsurf::tool

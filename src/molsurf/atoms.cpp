@@ -12,17 +12,22 @@
 namespace molsurf
 {
 
-Molecule::Molecule(std::shared_ptr<const Structure> structure) : structure_(std::move(structure)) {}
+Molecule::Molecule(std::shared_ptr<const Structure> structure, std::string input)
+    : structure_(std::move(structure)), input_(std::move(input))
+{
+}
 
 Molecule::Molecule(const std::string& path, const Progress& progress, const ReadLimits& limits)
     : structure_(std::make_shared<const Structure>(
-          readStructure(path, limits.maxInput, progress, limits.memory)))
+          readStructure(path, limits.maxInput, progress, limits.memory))),
+      input_(path)
 {
 }
 
 Molecule::Molecule(FileContent file, const Progress& progress, const ReadLimits& limits)
     : structure_(std::make_shared<const Structure>(parseStructure(
-          std::move(file.bytes), file.name, limits.maxInput, progress, limits.memory)))
+          std::move(file.bytes), file.name, limits.maxInput, progress, limits.memory))),
+      input_(file.name)
 {
 }
 
@@ -31,12 +36,16 @@ BallSet Molecule::balls(const SelectOptions& options, const LabelOptions& labels
 {
     checkOptions(options);
     checkOptions(labels);
-    return selectBalls(*structure_, options, labels, probe, progress);
+    BallSet balls = selectBalls(*structure_, options, labels, probe, progress);
+    balls.record.input = input_;
+    balls.record.asked = {options, labels, {}};
+    return balls;
 }
 
 SearchPlaces Molecule::places(const PlaceOptions& options, BallSet& atoms) const
 {
     checkOptions(options);
+    if (atoms.record.asked) atoms.record.asked->places = options;
     return findPlaces(*structure_, options, atoms);
 }
 
@@ -60,7 +69,7 @@ Molecule Molecule::moved(const std::vector<std::int32_t>& atoms,
     auto structure = std::make_shared<Structure>(*structure_);
     for (std::size_t i = 0; i < atoms.size(); ++i)
         structure->atoms[std::size_t(atoms[i])].position = places[i];
-    return Molecule(std::shared_ptr<const Structure>(std::move(structure)));
+    return {std::shared_ptr<const Structure>(std::move(structure)), input_};
 }
 
 BallSet readAtoms(const std::string& path, const SelectOptions& options, double probe,

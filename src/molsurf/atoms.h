@@ -361,6 +361,15 @@ struct Placement {
 
 /// How balls were chosen from a file.
 struct SelectionRecord {
+    /// The options that Molecule::balls() and Molecule::places() got.
+    struct Asked {
+        SelectOptions options;
+        LabelOptions labels;
+        PlaceOptions places;
+    };
+
+    std::string input;           ///< the path of the file, as it was given; empty: there is none
+    std::optional<Asked> asked;  ///< none: the balls are of no file
     std::vector<Excluded> drops; ///< atoms left out of the model, before the assembly is made
     std::size_t beads = 0;       ///< balls that coarse rules made
     std::size_t beadAtoms = 0;   ///< atoms that these balls stand for
@@ -472,8 +481,9 @@ public:
                    const std::vector<openvdb::Vec3d>& places) const;
 
 private:
-    explicit Molecule(std::shared_ptr<const Structure> structure);
+    Molecule(std::shared_ptr<const Structure> structure, std::string input);
     std::shared_ptr<const Structure> structure_;
+    std::string input_; ///< SelectionRecord::input
 };
 
 /// Radii of atoms that were not read from a file [Å]: as readAtoms() gives them, but for atoms of

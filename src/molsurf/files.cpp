@@ -4,24 +4,23 @@
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/mesh/check_arrays.h"
-#include "molsurf/kernel/pipeline/surface_kind.h"
-#include "molsurf/molecule/structure/archive.h"
 #include "molsurf/molecule/structure/detect_format.h"
 #include "molsurf/molecule/structure/text_fields.h"
-#include "molsurf/show/color/crisp_borders.h"
-#include "molsurf/show/color/palette.h"
+#include "molsurf/request/drawn_request.h"
+#include "molsurf/request/format_table.h"
+#include "molsurf/request/run_metadata.h"
+#include "molsurf/request/run_outputs.h"
 #include "molsurf/show/io/commit.h"
 #include "molsurf/show/io/file_content.h"
 #include "molsurf/show/io/output_file.h"
 #include "molsurf/show/io/output_folders.h"
 #include "molsurf/show/io/read_mesh.h"
 #include "molsurf/show/io/scene.h"
-#include "molsurf/show/io/write_glb.h"
 #include "molsurf/show/io/write_mesh.h"
-#include "molsurf/show/io/write_nvdb.h"
 #include "molsurf/show/io/write_report.h"
 #include "molsurf/show/io/write_vdb.h"
 #include "molsurf/show/picture/draw_mesh.h"
+#include "molsurf/show/picture/film.h"
 #include "molsurf/show/picture/write_png.h"
 #include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/file_settings.h"
@@ -30,7 +29,9 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <tuple>
 
 namespace molsurf
 {
@@ -46,15 +47,6 @@ DrawOptions drawn(int width)
     DrawOptions options;
     options.width = width;
     return options;
-}
-
-/// Balls as motions repeat them, in the colours of those that they are made of.
-BallSet repeated(const BallSet& atoms, ColorBy color, const WholeBalls& whole)
-{
-    BallSet colored = atoms;
-    if (color != ColorBy::Nothing && colored.colors.empty())
-        colored.colors = ballColors(atoms, color, Progress());
-    return subset(colored, whole.sources);
 }
 
 /// Puts atoms into a picture.
@@ -83,56 +75,21 @@ bool areInOnePlace(const BallSet& a, const BallSet& b)
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-/// The options of a file.
-struct FileLook : PictureSettings, FileSettings {
-};
-
-/// Sets what words say.
-/// @param[in] holds  the content of the file, a set of holds::Content
-/// @throws Error(ErrorKind::Usage) if one is wrong or the file does not show it
-FileLook lookOf(const Words& settings, const std::string& path, unsigned holds)
-{
-    FileLook look;
-    const auto take = [&](const auto& row, const std::string& value) {
-        if (!(row.shownIn & holds))
-            throw Error(ErrorKind::Usage, memberName(row.name) + ": " + path + " does not show it");
-        row.set(look, {value});
-    };
-    for (const auto& [name, value] : settings) {
-        const FileSetting* row = findRow(fileSettings(), name);
-        row ? take(*row, value) : take(pictureSetting(name), value);
-    }
-    return look;
-}
-
-/// A surface as a file shows it: in the place of the whole, with the walls and the borders between
-/// colours that are asked for.
+/// A surface as the files of a request show it.
 class FileSurface
 {
 public:
-    FileSurface(const ShownSurface& shown, const FileLook& look)
-        : shown_(shown), look_(look), whole_(ballsOfWhole(*shown.atoms))
+    FileSurface(const ShownSurface& shown, const Request& request) : shown_(shown)
     {
         checkArrays(shown.surface->mesh);
-        if (look.walls == Walls::All) return;
+        if (!shown.atoms->placement.isWhole())
+            whole_ = std::make_shared<const WholeBalls>(ballsOfWhole(*shown.atoms));
+        if (request.walls == Walls::All) return;
         own_ = shown.surface->mesh;
-        keepWalls(look.walls, Progress(), *own_);
+        keepWalls(request.walls, Progress(), *own_);
     }
 
     const Mesh& mesh() const { return own_ ? *own_ : shown_.surface->mesh; }
-
-    /// Finds the borders between colours.
-    /// @param[in] cut  whether triangles are cut there
-    void findBorders(bool cut)
-    {
-        const BallSet& atoms = *shown_.atoms;
-        const SurfaceOptions& options = *shown_.options;
-        const Progress nobody;
-        const BallSet colored = repeats() ? repeated(atoms, options.color, whole_) : BallSet();
-        const BallSet& all = repeats() ? colored : atoms;
-        borders_ = bordersOf(options.color, all, asMeshed(whole_.balls, options), mesh(), nobody);
-        if (cut && borders_) own_ = crispMesh(mesh(), *borders_, all, options, nobody);
-    }
 
     /// Moves the middle of the mesh's box to the origin.
     /// @return where it was [Å]
@@ -142,95 +99,52 @@ public:
         return moveToOrigin(*own_);
     }
 
-    DrawnSurface drawn() const
+    /// The borders that the files of a request show.
+    ShownMeshes meshes(const Request& request) const
     {
-        DrawnSurface all{*shown_.atoms, mesh(), *shown_.options, look_.picture,
-                         repeats() ? &whole_ : nullptr};
-        all.name = shown_.name;
-        all.borders = borders_;
-        return all;
+        ShownMeshes shown =
+            shownMeshes(request, *shown_.options, *shown_.atoms, mesh(), whole_, Progress());
+        shown.about = aboutPage(shown_.surface->report.surface.kind, shown_.options->voxel);
+        return shown;
     }
 
 private:
-    bool repeats() const { return !shown_.atoms->placement.isWhole(); }
-
     const ShownSurface& shown_;
-    const FileLook& look_;
-    WholeBalls whole_;
+    std::shared_ptr<const WholeBalls> whole_{};
     std::optional<Mesh> own_{}; ///< unless it is that of the surface
-    std::shared_ptr<const ColorOwners> borders_{};
 };
 
-/// The layers of a page.
-std::vector<HtmlLayer> layersOf(const std::vector<ShownSurface>& surfaces,
-                                const std::vector<DrawnSurface>& drawn, const std::string& title,
-                                const Progress& progress)
+/// The request of a file: the options of its surface, and those of the file in words.
+/// @throws Error(ErrorKind::Usage) if a word is wrong or the file does not show it
+Request requestOf(const ShownSurface& shown, const Words& settings, const std::string& path,
+                  unsigned holds)
 {
-    std::vector<HtmlLayer> layers;
-    for (std::size_t n = 0; n < surfaces.size(); ++n) {
-        const ShownSurface& shown = surfaces[n];
-        const std::string about =
-            aboutPage(shown.surface->report.surface.kind, shown.options->voxel);
-        HtmlPage page = pageOf(drawn[n], title, about, progress);
-        page.inPlace = areInOnePlace(*shown.atoms, *surfaces[0].atoms);
-        layers.push_back({drawn[n].mesh, std::move(page)});
+    Request request;
+    const SelectionRecord& record = shown.atoms->record;
+    request.knowsAtoms = bool(record.asked);
+    if (record.asked) {
+        request.atoms = record.asked->options;
+        request.labels = record.asked->labels;
+        request.places = record.asked->places;
     }
-    return layers;
-}
-
-void drawSurfaceFiles(const std::vector<ShownSurface>& surfaces, const std::string& path,
-                      const FileLook& look, bool isPage, bool replace)
-{
-    const Progress nobody;
-    std::deque<FileSurface> made; // DrawnSurface refers to it
-    std::vector<DrawnSurface> drawn;
-    for (const ShownSurface& shown : surfaces) {
-        made.emplace_back(shown, look).findBorders(isPage);
-        drawn.push_back(made.back().drawn());
-        const bool inPlace = areInOnePlace(*shown.atoms, *surfaces[0].atoms);
-        if (!inPlace) drawn.back().look.notes.clear();
-        if (isPage) continue;
-        const bool likeFirst = inPlace && shown.show.empty();
-        showAtoms(likeFirst ? surfaces[0].show : shown.show, *shown.atoms, nobody,
-                  drawn.back().look);
+    request.options = *shown.options;
+    request.input = shown.surface->report.input;
+    if (request.input.empty()) request.input = std::filesystem::path(path).stem().string();
+    request.firstName = shown.name;
+    const auto take = [&](const auto& row, const std::string& value) {
+        if (!(row.shownIn & holds))
+            throw Error(ErrorKind::Usage, memberName(row.name) + ": " + path + " does not show it");
+        row.set(request, {value});
+    };
+    for (const auto& [name, value] : settings) {
+        const FileSetting* row = findRow(fileSettings(), name);
+        row ? take(*row, value) : take(pictureSetting(name), value);
     }
-    const std::string title = std::filesystem::path(path).stem().string();
-    OutputFile file(path, replace);
-    isPage ? writeHtml(layersOf(surfaces, drawn, title, nobody), file)
-           : writePng(drawSurfaces(drawn, look, nobody), file);
-    file.commit();
+    return request;
 }
 
-/// @param[in] path  for messages
-openvdb::GridCPtrVec placedGrids(const MolecularSurface& surface, const std::string& path,
-                                 const Scene& scene, bool moved)
-{
-    const openvdb::GridPtrVec all = surface.grids();
-    if (all.empty()) throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
-    const openvdb::GridCPtrVec grids(all.begin(), all.end());
-    return placeInScene(grids, scene, moved);
-}
-
-void writeGrids(const openvdb::GridCPtrVec& grids, const std::string& path, const Scene& scene,
-                bool replace)
-{
-    openvdb::MetaMap metadata;
-    describeScene(scene, metadata);
-    OutputFile file(path, replace);
-    writeVdb(grids, metadata, file);
-    file.commit();
-}
-
-void writeBareGrids(const openvdb::GridCPtrVec& grids, const std::string& path, bool replace)
-{
-    OutputFile file(path, replace);
-    writeNvdb(grids, file);
-    file.commit();
-}
-
-/// Writes what APBS reads into a folder, which is made.
-void writeSolverFiles(const ShownSurface& shown, const std::string& folder, const FileLook& look,
-                      bool replace)
+/// The files of APBS in a folder, and their lattice.
+void takeSolver(const ShownSurface& shown, const std::string& folder, Request& request)
 {
     const BallSet& atoms = *shown.atoms;
     if (!atoms.charges || !atoms.placement.isWhole() || !shown.surface->surface)
@@ -238,22 +152,108 @@ void writeSolverFiles(const ShownSurface& shown, const std::string& folder, cons
                     "`for` apbs: expected a surface with a grid, of all atoms of a file with their "
                     "`charges`");
     const std::string& input = shown.surface->report.input;
-    const auto pathOf = [&](const std::string& word) {
-        return solverPath(folder, input.empty() ? "surface" : input, word);
+    request.apbsGrid = solverGrid(request.apbsInput, atoms);
+    for (const SolverFile& file : solverFiles())
+        request.outputs.push_back({solverPath(folder, input.empty() ? "surface" : input, file.word),
+                                   findFormat(file.word)});
+}
+
+/// Refuses a file of what the surface was made without.
+void checkMade(const ShownSurface& shown, const Output& output)
+{
+    const MolecularSurface& made = *shown.surface;
+    const SurfaceOptions& options = *shown.options;
+    const std::string table = output.format->table;
+    const bool ofAtoms = table == "atoms" || table == "residues";
+    const std::vector<std::tuple<bool, bool, const char*>> needs = {
+        {output.holds(holds::Areas), shown.atoms->names && shown.atoms->labels,
+         "atoms of a file, with `names` and `labels`"},
+        {ofAtoms, !made.ballAreas.empty(), "a surface with `ballAreas`"},
+        {table == "contacts", options.contacts || !made.contacts.empty(),
+         "a surface with `contacts`"},
+        {table == "interfaces", options.interfaces, "a surface with `interfaces`"},
+        {table == "pockets", bool(made.report.pockets), "a surface with `pockets`"},
+        {output.holds(holds::Numbered), options.pocketBodies, "a surface with `pocketBodies`"},
+        {table == "pore", bool(made.report.pore), "a surface of atoms with a `pore`"},
+        {table == "tunnels", bool(made.report.tunnels), "a surface of atoms with `tunnelsFrom`"},
+        {output.holds(holds::anyGrids | holds::Volume), bool(made.surface),
+         "a surface with a grid of its own"}};
+    for (const auto& [asks, has, what] : needs)
+        if (asks && !has)
+            throw Error(ErrorKind::Usage, output.path + ": expected " + what + ", got one without");
+}
+
+/// The files that a name stands for.
+/// @throws Error(ErrorKind::Usage) if the surface has not what they hold
+void takeOutputs(const ShownSurface& shown, const Output& output, Request& request)
+{
+    const std::string& path = output.path;
+    checkMade(shown, output);
+    request.outputs = {output};
+    constexpr int turn = 36; // pictures of a film
+    if (output.holds(holds::Moving)) {
+        checkFilm(path);
+        if (request.turntable == 0) request.turntable = turn;
+    }
+    if (request.turntable > 0) {
+        request.outputs = withTurntable(request.outputs, request.turntable);
+        request.picture.turnable = true;
+    }
+    if (output.holds(holds::Numbered))
+        request.outputs = withPockets(request.outputs, shown.surface->report.pockets->list.size());
+}
+
+/// The panels of a picture or page.
+void takePanels(const std::vector<ShownSurface>& surfaces, bool isPage, Request& request)
+{
+    const DrawOptions look = request.picture;
+    const auto pictureOf = [&](const ShownSurface& shown, bool inPlace) {
+        DrawOptions picture = look;
+        if (!inPlace) picture.notes.clear();
+        const bool likeFirst = inPlace && shown.show.empty();
+        if (!isPage)
+            showAtoms(likeFirst ? surfaces[0].show : shown.show, *shown.atoms, Progress(), picture);
+        return picture;
     };
-    const SolverRun run{atoms,
-                        *shown.surface->surface,
-                        solverGrid(look.apbsInput, atoms),
-                        look.dielectric,
-                        displayName(inputStem(input)) + ", surface " + nameOf(shown.options->kind),
-                        pathOf};
-    MadeFolders folders; // before the files in it
-    folders.make(folder);
+    request.picture = pictureOf(surfaces[0], true);
+    if (surfaces.size() < 2) return;
+    request.panelSurfaces = std::make_shared<std::vector<PanelSurface>>();
+    for (std::size_t n = 1; n < surfaces.size(); ++n) {
+        const ShownSurface& shown = surfaces[n];
+        const FileSurface file(shown, request);
+        PanelSurface panel{shown.name, *shown.atoms, *shown.options, file.mesh(),
+                           file.meshes(request)};
+        panel.inPlace = areInOnePlace(*shown.atoms, *surfaces[0].atoms);
+        panel.picture = pictureOf(shown, panel.inPlace);
+        request.panels.push_back({"", openvdb::Vec3d(0.0), shown.options->kind});
+        request.panelSurfaces->push_back(std::move(panel));
+    }
+}
+
+/// Writes the files of a request, all or none.
+void writeRequest(const ShownSurface& shown, Request& request, bool replace)
+{
+    const Progress nobody;
+    FileSurface file(shown, request);
+    if (request.center) request.scene.center = file.center();
+    ShownMeshes meshes = file.meshes(request);
+    if (request.writes(holds::Numbered))
+        meshes.bodies = std::make_shared<const Mesh>(shown.surface->pocketBodies);
+    const Mesh& mesh = file.mesh();
+    const FileSource source{
+        request, *shown.atoms, *shown.surface,
+        mesh,    meshes,       [&] { return runMetadata(request, shown.surface->report); },
+        nobody};
     std::deque<OutputFile> files;
     std::vector<OutputFile*> all;
-    for (const SolverFile& row : solverFiles()) {
-        all.push_back(&files.emplace_back(pathOf(row.word), replace));
-        row.write(run, Progress(), files.back());
+    const std::vector<Output> outputs = request.outputs;
+    if (const Output& first = outputs.front(); *first.format->opens) // the file that a script opens
+        request.outputs.push_back(
+            {std::filesystem::path(first.path).replace_extension(first.format->opens).string(),
+             findFormat(first.format->opens)});
+    for (const Output& output : outputs) {
+        all.push_back(&files.emplace_back(output.path, replace));
+        writeFile(source, output, files.back());
     }
     commit(all);
 }
@@ -266,19 +266,34 @@ const MeshFormat* meshFormatOf(const std::string& ending)
     return nullptr;
 }
 
-void writeMeshFile(const ShownSurface& shown, const MeshFormat& format, const std::string& path,
-                   const FileLook& look, bool replace)
+/// Refuses a name that ends in no format.
+[[noreturn]] void refuseName(const std::string& path)
 {
-    FileSurface made(shown, look);
-    if (look.crisp) made.findBorders(true);
-    if (look.center) made.center();
-    const std::string name = std::filesystem::path(path).stem().string();
-    OutputFile file(path, replace);
-    if (format.holds & holds::SceneUnits)
-        writeGlb(made.mesh(), {name, look.scene.scale, look.picture.plain}, file);
-    else
-        format.write(made.mesh(), {name, look.printUnit()}, file);
-    file.commit();
+    std::vector<std::string> words; // without those of tables
+    for (const Format& format : formatTable())
+        if (format.write && !(format.holds & (holds::Solver | holds::Areas)))
+            words.push_back("." + std::string(format.word));
+    throw Error(ErrorKind::Usage, path + ": expected a name that ends in " +
+                                      joinWords(words, ", ") +
+                                      ", or in the name of a table, as .atoms.csv");
+}
+
+/// Writes the files of a name, whose format is known.
+void writeFormat(const std::vector<ShownSurface>& surfaces, const Output& output,
+                 const Words& settings, bool replace)
+{
+    const std::string& path = output.path;
+    const bool isPage = output.holds(holds::ColorChoices);
+    const bool isDrawn = isPage || output.holds(holds::Pixels);
+    if (surfaces.empty()) throw Error(ErrorKind::Usage, path + ": expected a surface, got none");
+    if (surfaces.size() > 1 && !isDrawn)
+        throw Error(ErrorKind::Usage, path + ": expected one surface, got " +
+                                          std::to_string(surfaces.size()) +
+                                          "; pictures, films and pages show more");
+    Request request = requestOf(surfaces[0], settings, path, output.format->holds);
+    takeOutputs(surfaces[0], output, request);
+    if (isDrawn) takePanels(surfaces, isPage, request);
+    writeRequest(surfaces[0], request, replace);
 }
 
 } // namespace
@@ -295,6 +310,15 @@ std::vector<std::string> meshEndings()
 {
     std::vector<std::string> all;
     for (const MeshFormat& format : meshFormats()) all.push_back(std::string(".") + format.word);
+    return all;
+}
+
+std::vector<std::string> surfaceEndings()
+{
+    std::vector<std::string> all;
+    for (const Format& format : formatTable())
+        if (format.write && !(format.holds & holds::Solver))
+            all.push_back("." + std::string(format.word));
     return all;
 }
 
@@ -319,7 +343,13 @@ void writeVdb(const MolecularSurface& surface, const std::string& path, bool rep
         throw Error(ErrorKind::Usage, "scene: expected blender, houdini or usd, perhaps with "
                                       "=SCALE, got " +
                                           inQuotes(scene));
-    writeGrids(placedGrids(surface, path, *place, false), path, *place, replace);
+    const openvdb::GridPtrVec all = surface.grids();
+    if (all.empty()) throw Error(ErrorKind::Usage, path + ": the surface has no grid of its own");
+    openvdb::MetaMap metadata;
+    describeScene(*place, metadata);
+    OutputFile file(path, replace);
+    writeVdb(placeInScene({all.begin(), all.end()}, *place, false), metadata, file);
+    file.commit();
 }
 
 void writeReport(const Report& report, const std::string& path, bool replace)
@@ -348,40 +378,23 @@ void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& 
                   const std::vector<std::pair<std::string, std::string>>& settings, bool replace)
 {
     const bool isPage = std::filesystem::path(path).extension() == ".html";
-    const FileLook look = lookOf(settings, path, isPage ? holds::heldByHtml : holds::heldByPng);
-    if (surfaces.empty()) throw Error(ErrorKind::Usage, path + ": expected a surface, got none");
-    drawSurfaceFiles(surfaces, path, look, isPage, replace);
+    writeFormat(surfaces, {path, findFormat(isPage ? "html" : "png")}, settings, replace);
 }
 
 void writeSurface(const std::vector<ShownSurface>& surfaces, const std::string& path,
                   const std::vector<std::pair<std::string, std::string>>& settings, bool replace)
 {
-    const std::string ending = std::filesystem::path(path).extension().string();
-    if (ending == ".png" || ending == ".html")
-        return writePicture(surfaces, path, settings, replace);
-    if (surfaces.size() != 1)
-        throw Error(ErrorKind::Usage,
-                    path + ": expected one surface, got " + std::to_string(surfaces.size()));
-    const ShownSurface& shown = surfaces[0];
-    if (std::count(settings.begin(), settings.end(),
-                   std::pair<std::string, std::string>("for", "apbs")))
-        return writeSolverFiles(shown, path, lookOf(settings, path, holds::Solver), replace);
-    if (const bool isBare = ending == ".nvdb"; isBare || ending == ".vdb") {
-        FileLook look = lookOf(settings, path, isBare ? holds::heldByNvdb : holds::heldByVdb);
-        if (look.center) look.scene.center = FileSurface(shown, look).center();
-        const auto grids = placedGrids(*shown.surface, path, look.scene, look.center);
-        return isBare ? writeBareGrids(grids, path, replace)
-                      : writeGrids(grids, path, look.scene, replace);
+    if (surfaces.size() == 1 &&
+        std::count(settings.begin(), settings.end(), Words::value_type("for", "apbs"))) {
+        Request request = requestOf(surfaces[0], settings, path, holds::Solver);
+        takeSolver(surfaces[0], path, request);
+        MadeFolders folders; // before the files in it
+        folders.make(path);
+        return writeRequest(surfaces[0], request, replace);
     }
-    if (ending == ".json") {
-        lookOf(settings, path, holds::Numbers);
-        return writeReport(shown.surface->report, path, replace);
-    }
-    if (const MeshFormat* format = meshFormatOf(ending))
-        return writeMeshFile(shown, *format, path, lookOf(settings, path, format->holds), replace);
-    throw Error(ErrorKind::Usage, path + ": expected a name that ends in " +
-                                      joinWords(meshEndings(), ", ") +
-                                      ", .vdb, .nvdb, .json, .png or .html");
+    const Format* format = findFormat(formatWordOf(path));
+    if (!format || !format->write || (format->holds & holds::Solver)) refuseName(path);
+    writeFormat(surfaces, {path, format}, settings, replace);
 }
 
 } // namespace molsurf

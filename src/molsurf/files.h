@@ -23,6 +23,9 @@ std::vector<std::string> structureEndings();
 /// How the names of mesh files end: ".ply", ".obj", ...
 std::vector<std::string> meshEndings();
 
+/// How the names of files of a surface end: ".vdb", ".ply", ".atoms.csv", ...
+std::vector<std::string> surfaceEndings();
+
 /// Writes a mesh in the format that the extension tells, one of meshEndings(); .ply (binary) has
 /// all attributes. Lengths are in Å.
 /// @param[in] replace  whether a file that exists may be replaced
@@ -88,17 +91,21 @@ void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& 
                   const std::vector<std::pair<std::string, std::string>>& settings = {},
                   bool replace = true);
 
-/// Writes a surface in the format that the extension names: a mesh, as writeMesh(), .vdb, .json,
-/// .png or .html; or, with {"for", "apbs"}, into a folder the files that APBS reads: maps of the
-/// dielectric and of ions, charges and its input (docs/electrostatics.md). These come all or none.
+/// Writes a surface in the format that the end of the name says, one of surfaceEndings(): the file
+/// that the command writes under that name. With {"for", "apbs"} it writes into a folder the files
+/// that APBS reads: maps of the dielectric and of ions, charges and its input
+/// (docs/electrostatics.md). Several files, as the pictures of a turntable and those of pockets,
+/// come all or none. A film without a `turntable` is a turn of 36 pictures.
 ///
-/// @param[in] surfaces  one; of a .png or .html more, as writePicture() takes them
+/// @param[in] surfaces  one; of pictures, films and pages more, as writePicture() takes
+///                      them
 /// @param[in] settings  names and values of the options of files and pictures on the command line,
 ///                      such as {"walls", "outer"}, {"crisp", ""} or {"print-scale", "0.5"}
 /// @param[in] replace   as above
 /// @throws Error(ErrorKind::Usage) if a setting is wrong or one that the file does not show, if the
-///         extension is another one, or if APBS is to get atoms that were read without
-///         SelectOptions::charges or are a part of the whole
+///         name ends otherwise, or if the surface was made without what the file holds: tables
+///         need Products::ballAreas and the like, APBS atoms that were read with
+///         LabelOptions::charges and are the whole
 /// @throws Error(ErrorKind::Output) if a file cannot be written
 void writeSurface(const std::vector<ShownSurface>& surfaces, const std::string& path,
                   const std::vector<std::pair<std::string, std::string>>& settings = {},

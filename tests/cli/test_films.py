@@ -155,7 +155,7 @@ class Films(ToolTest):
         words = [CRAMBIN, *FAST, "--size", 60, "--turntable", 3, "-o", "a.mp4", "-o", "a.ply", "--force"]
         for fault in ({"STATUS": "1", "SAYS": "no such codec"}, {"TAKES": "10", "STATUS": "1", "SAYS": "no such codec"},
                       {"SAYS": "no such codec"}):
-            self.check(1, *words, says=["a.mp4: ffmpeg: no such codec", "[hint: -o NAME.png"], env={**self.env, **fault})
+            self.check(1, *words, says=["a.mp4: ffmpeg: no such codec", "[hint: a name that ends in .png"], env={**self.env, **fault})
             self.assertEqual(self.names(), [])
         (self.folder / "a.mp4").write_text("old")
         self.check(1, *self.moving(), "--size", 60, "-o", "a.mp4", "--force", says="ffmpeg", env={**self.env, "STATUS": "1"})

@@ -497,13 +497,13 @@ CASES = {
          "vdb_molsurf bricks run plan.json 1"),
         ("vdb_molsurf bricks merge plan.json -o surface.vdb", f"{PLAN}; {RUN}; vdb_molsurf bricks merge",
          "vdb_molsurf bricks merge plan.json -o surface.vdb")],
+    "show/picture/film.cpp": [
+        ("a name that ends in .png writes the pictures one by one", f"PATH=/none \"$(command -v vdb_molsurf)\" one.xyzr {FAST} -o x.mp4 --turntable 2",
+         f"vdb_molsurf one.xyzr {FAST} -o x.png --turntable 2"),
+        ("a name that ends in .png writes the pictures one by one", f"ln -sf /bin/false ffmpeg; PATH=.:$PATH vdb_molsurf one.xyzr {FAST} -o x.mp4 --turntable 2",
+         f"vdb_molsurf one.xyzr {FAST} --force -o x.png --turntable 2")],
     "show/picture/legend_svg.cpp": [
         ("--color chain", f"vdb_molsurf 1crn.pdb {FAST} -o a.legend.svg", f"vdb_molsurf 1crn.pdb {FAST} --color chain -o a.legend.svg")],
-    "tools/film.cpp": [
-        ("-o NAME.png writes the pictures one by one", f"PATH=/none \"$(command -v vdb_molsurf)\" one.xyzr {FAST} -o x.mp4 --turntable 2",
-         f"vdb_molsurf one.xyzr {FAST} -o x.png --turntable 2"),
-        ("-o NAME.png writes the pictures one by one", f"ln -sf /bin/false ffmpeg; PATH=.:$PATH vdb_molsurf one.xyzr {FAST} -o x.mp4 --turntable 2",
-         f"vdb_molsurf one.xyzr {FAST} --force -o x.png --turntable 2")],
     "tools/cli/option_table.cpp": [
         ("all cores are used without --threads", f"vdb_molsurf one.xyzr {FAST} -j 0 -o a.ply", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
     "tools/cli/pair_table.cpp": [

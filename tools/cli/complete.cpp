@@ -14,6 +14,7 @@
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/kernel/spline/curvature.h"
 #include "molsurf/molecule/selection/groups.h"
+#include "molsurf/request/run_outputs.h"
 #include "molsurf/show/color/color_table.h"
 #include "molsurf/show/io/output_file.h"
 #include "molsurf/surface/field_table.h"
@@ -36,16 +37,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-/// The end of a file's name that says what it is: "ply", "atoms.csv".
-std::string endOf(const std::string& path)
-{
-    const fs::path name = lowered(fs::path(path).filename().string());
-    const std::string end = name.extension().string();
-    if (end.empty()) return end;
-    const std::string both = name.stem().extension().string() + end;
-    return findFormat(both.substr(1)) ? both.substr(1) : end.substr(1);
-}
 
 /// The words between spaces.
 std::vector<std::string> wordsOf(const std::string& text)
@@ -132,7 +123,7 @@ bool isFolder(const std::string& path)
 std::string wordOf(const CommandLine& call, const std::string& path)
 {
     if (path == "-") return call.format;
-    const std::string word = endOf(path);
+    const std::string word = formatWordOf(path);
     const Format* known = findFormat(word);
     if (!known && isStream(path)) {
         if (call.format.empty()) usageError("-o " + path + ": expected --format too");
@@ -268,24 +259,10 @@ void checkUpright(const CommandLine& call)
         usageError("--up: expected a direction across that of --view, got the same");
 }
 
-// Puts the frames of a turntable in the place of each picture; a film holds all of its own.
+// Puts the frames of a turntable in the place of each picture.
 void addTurntable(CommandLine& call)
 {
-    std::vector<Output> outputs;
-    for (const Output& output : call.outputs) {
-        if (!output.holds(Pixels) || output.holds(Moving)) {
-            outputs.push_back(output);
-            continue;
-        }
-        for (int n = 0; n < call.turntable; ++n) {
-            const std::string number = formatted(".%04d", n + 1);
-            Output frame = output;
-            frame.path.insert(frame.path.size() - std::strlen(".png"), number);
-            frame.turn = 360.0 * n / call.turntable;
-            outputs.push_back(std::move(frame));
-        }
-    }
-    call.outputs = std::move(outputs);
+    call.outputs = withTurntable(call.outputs, call.turntable);
     call.picture.turnable = true;
 }
 
@@ -529,7 +506,7 @@ void completePlan(CommandLine& call)
     if (call.input == "-") usageError("bricks plan: expected a file, got standard input");
     if (call.paths.size() != 1)
         usageError("bricks plan: expected one file to write [hint: -o plan.json]");
-    if (call.paths[0] == "-" || endOf(call.paths[0]) != "json")
+    if (call.paths[0] == "-" || formatWordOf(call.paths[0]) != "json")
         usageError("-o " + call.paths[0] + ": expected a name that ends in .json");
     call.outputs = {{call.paths[0], findFormat("json")}};
     if (call.bricks == 0 && call.memory == 0)

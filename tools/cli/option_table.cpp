@@ -9,6 +9,7 @@
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/molecule/selection/groups.h"
 #include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/request/run_metadata.h"
 #include "molsurf/settings.h"
 #include "molsurf/show/picture/view_file.h"
 #include "molsurf/surface/set_value.h"
@@ -22,13 +23,6 @@
 
 namespace molsurf::tool
 {
-
-const std::vector<std::string>& areaTables()
-{
-    static const std::vector<std::string> all = {"atoms",   "residues", "contacts", "interfaces",
-                                                 "pockets", "pore",     "tunnels",  "forces"};
-    return all;
-}
 
 void usageError(const std::string& message)
 {
@@ -49,16 +43,6 @@ using Values = std::vector<std::string>;
 openvdb::Metadata::Ptr stored(const std::string& text)
 {
     return openvdb::StringMetadata(text).copy();
-}
-
-openvdb::Metadata::Ptr metadataOf(const SettingValue& value)
-{
-    if (const auto* on = std::get_if<bool>(&value)) return openvdb::BoolMetadata(*on).copy();
-    if (const auto* whole = std::get_if<std::int64_t>(&value))
-        return openvdb::Int64Metadata(*whole).copy();
-    if (const auto* number = std::get_if<double>(&value))
-        return openvdb::DoubleMetadata(*number).copy();
-    return stored(std::get<std::string>(value));
 }
 
 /// The option of a setting of the library.
@@ -88,6 +72,7 @@ std::optional<Option> optionOf(const std::vector<SettingRow<To>>& rows, const st
     Option o{row->name, 0, row->value, withOptionNames(row->text), row->preset, verbs, row->words};
     o.set = row->set;
     o.shownIn = row->shownIn;
+    if (row->get) o.stored = [row](const CommandLine& call) { return metadataOf(row->get(call)); };
     return o;
 }
 
@@ -254,9 +239,9 @@ OptionGroup outputOptions()
         return o;
     };
     const auto written = [&](Verb verb, const char* more) {
-        return output(verb,
-                      "file to write; repeats; the extension says what:\n" +
-                          wrapped(filesOf(verb) + "; - is standard output" + more, helpWidth));
+        const std::string all = withOptionNames(filesOf(verb)) + "; - is standard output" + more;
+        return output(verb, "file to write; repeats; the extension says what:\n" +
+                                wrapped(all, helpWidth));
     };
     const auto format = [](Verb verb, unsigned verbs) {
         const Values known = formatsOf(verb);
@@ -327,57 +312,43 @@ Option superposeOption()
 
 OptionGroup atomOptions()
 {
-    return {
-        "Atoms",
-        {setting("select", structures), setting("model", structures),
-         setting("assembly", structures), setting("instances", Build),
-         setting("by-symmetry", Build),
-         shownIn(Triangles,
-                 kept(MOLSURF_OF(weld),
-                      flag("weld", "with --by-symmetry: units share the vertices of their borders",
-                           Build, MOLSURF_OF(weld)))),
-         setting("copies", structures), setting("altloc", structures),
-         setting("no-hydrogens", structures), setting("ions", structures),
-         setting("hetero", structures), setting("no-hetero", structures),
-         setting("waters", structures), setting("radii", structures), setting("probe", structures),
-         superposeOption(), setting("max-input", structures | Info)},
-        {{"vdb_molsurf 4hhb.cif.gz --select \"chain A or within 5 of resn HEM\" -o part.ply",
-          "some of the atoms"},
-         {"vdb_molsurf 1a8o.cif.gz --assembly 1 -o dimer.ply", "the biological assembly"}}};
+    return {"Atoms",
+            {setting("select", structures), setting("model", structures),
+             setting("assembly", structures), setting("instances", Build),
+             setting("by-symmetry", Build), fileOption("weld", Build),
+             setting("copies", structures), setting("altloc", structures),
+             setting("no-hydrogens", structures), setting("ions", structures),
+             setting("hetero", structures), setting("no-hetero", structures),
+             setting("waters", structures), setting("radii", structures),
+             setting("probe", structures), superposeOption(),
+             setting("max-input", structures | Info)},
+            {{"vdb_molsurf 4hhb.cif.gz --select \"chain A or within 5 of resn HEM\" -o part.ply",
+              "some of the atoms"},
+             {"vdb_molsurf 1a8o.cif.gz --assembly 1 -o dimer.ply", "the biological assembly"}}};
 }
 
 OptionGroup frameOptions()
 {
-    return {
-        "Frames",
-        {text("frames", "A-B:S",
-              "a surface for every S-th frame from A to B: models of\n"
-              "INPUT by their numbers, or frames of --trajectory; also\n"
-              "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
-              "name.csv: a table of all",
-              Build, MOLSURF_OF(frames)),
-         ofFile(text("trajectory", "FILE",
-                     ".dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT", Build,
-                     MOLSURF_OF(trajectory))),
-         flag("update-selections",
-              "selections by distance, as within 5 of resn HEM, are those\n"
-              "of each frame, and not of the first",
-              Build, MOLSURF_OF(updateSelections)),
-         count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
-               "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
-         shownIn(anyGrids | VertexCurvatures | Stage | Moving,
-                 with(number("fps", "N",
-                             "frames per second, such as 24: velocities of --fields v\n"
-                             "are per second; a .usda and a film play at this rate",
-                             "", Build, 1e-3, 1e6, "a number from 0.001 to 1e6", MOLSURF_OF(fps)),
-                      [](Option& o) {
-                          o.stored = [](const CommandLine& c) {
-                              return openvdb::DoubleMetadata(c.fps).copy();
-                          };
-                      }))},
-        {{"vdb_molsurf 1d3z.pdb.gz --frames 1-4 -o 1d3z.ply", "a mesh for each of four models"},
-         {"vdb_molsurf top.pdb --trajectory run.xtc --frames all --superpose auto -o film.mp4",
-          "a film of a trajectory, each frame laid on the first"}}};
+    return {"Frames",
+            {text("frames", "A-B:S",
+                  "a surface for every S-th frame from A to B: models of\n"
+                  "INPUT by their numbers, or frames of --trajectory; also\n"
+                  "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
+                  "name.csv: a table of all",
+                  Build, MOLSURF_OF(frames)),
+             ofFile(text("trajectory", "FILE",
+                         ".dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT", Build,
+                         MOLSURF_OF(trajectory))),
+             flag("update-selections",
+                  "selections by distance, as within 5 of resn HEM, are those\n"
+                  "of each frame, and not of the first",
+                  Build, MOLSURF_OF(updateSelections)),
+             count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
+                   "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
+             fileOption("fps", Build)},
+            {{"vdb_molsurf 1d3z.pdb.gz --frames 1-4 -o 1d3z.ply", "a mesh for each of four models"},
+             {"vdb_molsurf top.pdb --trajectory run.xtc --frames all --superpose auto -o film.mp4",
+              "a film of a trajectory, each frame laid on the first"}}};
 }
 
 OptionGroup surfaceOptions()
@@ -515,11 +486,7 @@ OptionGroup areaOptions()
                            didYouMean(table, areaTables()));
     };
     return {"Areas",
-            {shownIn(Numbers, areas),
-             word("contacts", "LEVEL",
-                  "contact areas between atoms, residues or chains: atom,\nresidue, chain", wholes,
-                  MOLSURF_OF(contacts),
-                  std::vector{ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain})},
+            {shownIn(Numbers, areas), shownIn(0, fileOption("contacts", wholes))},
             {{"vdb_molsurf 1ubq.pdb -o 1ubq.residues.csv", "accessible area of each residue"},
              {"vdb_molsurf 4hhb.cif.gz -o 4hhb.contacts.csv --contacts chain",
               "contact areas between chains"}}};
@@ -551,19 +518,12 @@ OptionGroup poreOptions()
 
 OptionGroup sceneOptions()
 {
-    Option host = fileOption("for", wholes), center = fileOption("center", wholes);
-    host.stored = [](const CommandLine& c) {
-        return stored(c.forApbs ? "apbs" : nameOf(c.scene.host));
-    };
+    Option center = fileOption("center", wholes);
     center.shownIn = 0; // pictures look the same
-    Option ids = fileOption("ids", wholes), mips = fileOption("mips", wholes);
-    ids.stored = [](const CommandLine& c) { return stored(nameOf(c.scene.form.ids)); };
-    mips.stored = [](const CommandLine& c) { return stored(std::to_string(c.scene.form.mips)); };
     return {
         "Scene",
-        {host, numberKept(MOLSURF_OF(scene.fogDensity), fileOption("fog-density", wholes)), ids,
-         kept(MOLSURF_OF(scene.form.oneBox), fileOption("one-box", wholes)), mips,
-         kept(MOLSURF_OF(center), center)},
+        {fileOption("for", wholes), fileOption("fog-density", wholes), fileOption("ids", wholes),
+         fileOption("one-box", wholes), fileOption("mips", wholes), center},
         {{"vdb_molsurf 1crn.pdb --for blender -o 1crn.vdb", "a volume with colours for Blender"},
          {"vdb_molsurf 1crn.pdb --for usd --center -o 1crn.vdb", "a volume and its stage of USD"}}};
 }
@@ -725,11 +685,7 @@ OptionGroup pictureOptions()
              shownIn(Pixels | ColorChoices, showOption()), labelOption(), rulerOption(),
              panelOption(), fileOption("opacity", draw), fileOption("all-walls", draw),
              fileOption("clip", draw), fileOption("depth-cue", draw), fileOption("legend", draw),
-             fileOption("scale-bar", draw), fileOption("dpi", draw),
-             shownIn(Pixels, count("turntable", "N",
-                                   "N pictures round the upright: name.0001.png, ..., or in\na "
-                                   "film, such as name.mp4",
-                                   "", draw, 2, 9999, MOLSURF_OF(turntable)))},
+             fileOption("scale-bar", draw), fileOption("dpi", draw), fileOption("turntable", draw)},
             {{"vdb_molsurf 4hhb.cif.gz --color chain --show \"resn HEM=sticks\" --opacity 0.5 "
               "-o haems.png",
               "ligands behind a translucent surface"},
@@ -836,19 +792,6 @@ OptionGroup runOptions()
 }
 
 } // namespace
-
-bool CommandLine::writes(unsigned some) const
-{
-    return std::any_of(outputs.begin(), outputs.end(),
-                       [=](const Output& output) { return output.holds(some); });
-}
-
-bool CommandLine::writesOnly(unsigned some) const
-{
-    return !outputs.empty() &&
-           std::all_of(outputs.begin(), outputs.end(),
-                       [=](const Output& output) { return output.holds(some); });
-}
 
 const std::vector<OptionGroup>& optionTable()
 {

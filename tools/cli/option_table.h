@@ -79,10 +79,6 @@ std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given);
 /// "option.NAME.sha256".
 void addOptions(const CommandLine& call, openvdb::MetaMap& map);
 
-/// The tables of areas: "atoms", "residues", "contacts", "interfaces", "pockets", "pore",
-/// "tunnels", "forces".
-const std::vector<std::string>& areaTables();
-
 /// @throws Error(ErrorKind::Usage)
 [[noreturn]] void usageError(const std::string& message);
 

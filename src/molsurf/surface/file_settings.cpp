@@ -45,19 +45,59 @@ FileSetting programSetting()
                 to.scene.scale = scene->scale;
                 to.scene.form.oneBox |= scene->form.oneBox;
                 to.scene.form.half = scene->form.half;
+            },
+            [](const FileSettings& of) {
+                return SettingValue(std::string(of.forApbs ? "apbs" : nameOf(of.scene.host)));
             }};
 }
 
 FileSetting mipsSetting()
 {
-    return {"mips",
+    return {
+        "mips",
+        "N",
+        "N coarser levels of density and Cd in a .vdb, each with\n"
+        "voxels twice as large: density_level_0, density_level_1, ...",
+        "0",
+        holds::anyGrids,
+        {},
+        countSetter("mips", 0, 10, MOLSURF_OF(scene.form.mips)),
+        [](const FileSettings& of) { return SettingValue(std::to_string(of.scene.form.mips)); }};
+}
+
+FileSetting rateSetting()
+{
+    return stored(numberRow<FileSettings>(
+                      {"fps", "N",
+                       "frames per second, such as 24: velocities of `fields` v\n"
+                       "are per second; a .usda and a film play at this rate",
+                       ""},
+                      holds::anyGrids | holds::VertexCurvatures | holds::Stage | holds::Moving,
+                      {1e-3, 1e6, "a number from 0.001 to 1e6"}, MOLSURF_OF(fps)),
+                  MOLSURF_OF(fps));
+}
+
+FileSetting turntableSetting()
+{
+    return {"turntable",
             "N",
-            "N coarser levels of density and Cd in a .vdb, each with\n"
-            "voxels twice as large: density_level_0, density_level_1, ...",
-            "0",
-            holds::anyGrids,
+            "N pictures round the upright: name.0001.png, ..., or in\na film, such as name.mp4",
+            "",
+            holds::Pixels,
             {},
-            countSetter("mips", 0, 10, MOLSURF_OF(scene.form.mips))};
+            countSetter("turntable", 2, 9999, MOLSURF_OF(turntable))};
+}
+
+FileSetting contactsSetting()
+{
+    constexpr ContactLevel preset = ContactLevel::Residue;
+    FileSetting row = wordRow<FileSettings>(
+        "contacts", "contact areas between atoms, residues or chains: atom,\nresidue, chain",
+        holds::Areas, std::vector{ContactLevel::Atom, ContactLevel::Residue, ContactLevel::Chain},
+        MOLSURF_OF(contacts));
+    row.value = "LEVEL";
+    row.preset = nameOf(preset);
+    return row;
 }
 
 FileSetting latticeSetting()
@@ -100,23 +140,35 @@ const std::vector<FileSetting>& fileSettings()
         switchRow<FileSettings>("crisp", "mesh files: triangles are cut where colours meet",
                                 holds::CutBorders, MOLSURF_OF(crisp)),
         programSetting(),
-        numberRow<FileSettings>({"fog-density", "D",
-                                 "optical depth of an Å of fog at density 1 in the program,\n"
-                                 "in any unit; without it the values of density are 0 to 1",
-                                 ""},
-                                holds::anyGrids, {1e-6, 1e6, "a number from 1e-6 to 1e6"},
-                                MOLSURF_OF(scene.fogDensity)),
-        wordRow<FileSettings>("ids",
-                              "type of atom_id, chain_id, group_id and pocket_id in a .vdb:\n"
-                              "int32; or float, for readers that know no int32",
-                              holds::anyGrids, std::vector{IdType::Int, IdType::Float},
-                              MOLSURF_OF(scene.form.ids)),
-        switchRow<FileSettings>("one-box", "all grids of a .vdb have one box of active voxels",
-                                holds::anyGrids, MOLSURF_OF(scene.form.oneBox)),
+        stored(
+            numberRow<FileSettings>({"fog-density", "D",
+                                     "optical depth of an Å of fog at density 1 in the program,\n"
+                                     "in any unit; without it the values of density are 0 to 1",
+                                     ""},
+                                    holds::anyGrids, {1e-6, 1e6, "a number from 1e-6 to 1e6"},
+                                    MOLSURF_OF(scene.fogDensity)),
+            MOLSURF_OF(scene.fogDensity)),
+        stored(
+            wordRow<FileSettings>("ids",
+                                  "type of atom_id, chain_id, group_id and pocket_id in a .vdb:\n"
+                                  "int32; or float, for readers that know no int32",
+                                  holds::anyGrids, std::vector{IdType::Int, IdType::Float},
+                                  MOLSURF_OF(scene.form.ids)),
+            [](const FileSettings& of) { return std::string(nameOf(of.scene.form.ids)); }),
+        stored(switchRow<FileSettings>("one-box",
+                                       "all grids of a .vdb have one box of active voxels",
+                                       holds::anyGrids, MOLSURF_OF(scene.form.oneBox)),
+               MOLSURF_OF(scene.form.oneBox)),
         mipsSetting(),
-        switchRow<FileSettings>("center", "the middle of the surface comes to the origin",
-                                holds::anyGrids | holds::Triangles | holds::VertexCurvatures,
-                                MOLSURF_OF(center)),
+        stored(switchRow<FileSettings>("center", "the middle of the surface comes to the origin",
+                                       holds::anyGrids | holds::Triangles | holds::VertexCurvatures,
+                                       MOLSURF_OF(center)),
+               MOLSURF_OF(center)),
+        stored(switchRow<FileSettings>(
+                   "weld", "with `bySymmetry`: units share the vertices of their borders",
+                   holds::Triangles, MOLSURF_OF(weld)),
+               MOLSURF_OF(weld)),
+        rateSetting(), turntableSetting(), contactsSetting(),
         numberRow<FileSettings>(
             {"print-scale", "S", ".stl, .obj, .wrl, .3mf in mm, S of them per Å", ""},
             holds::Millimetres, {1e-6, 1e6, "mm per Å, from 1e-6 to 1e6"}, MOLSURF_OF(printScale)),

@@ -4,6 +4,7 @@
 /// @file
 /// The options of files but pictures, a row each: the command line and Python's save() take them.
 
+#include "molsurf/analysis/measures/area_tables.h"
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
 #include "molsurf/show/io/scene.h"
@@ -33,6 +34,10 @@ struct FileSettings {
     double printScale = 0.0; ///< of .stl, .obj, .wrl and .3mf [mm/Å]; 0: they are in Å
     std::string apbsInput;   ///< whose lattice is used; empty: that of gridAround()
     Dielectric dielectric;
+    double fps = 0.0;                              ///< frames per second; 0: times are in frames
+    int turntable = 0;                             ///< number of pictures round the upright; 0: one
+    bool weld = false;                             ///< units of a whole share their vertices
+    ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts
 
     /// The unit of the formats that are printed from.
     LengthUnit printUnit() const

@@ -29,11 +29,31 @@ MolecularSurface run(const BallSet& atoms, const SurfaceOptions& options, Progre
     return runWhole(atoms, options, progress);
 }
 
-/// Describes what the surface was made of.
-void describeAtoms(const BallSet& atoms, Report& report)
+/// The copies that motions make.
+std::vector<Report::Copy> copiesOf(const Placement& placement)
 {
+    std::vector<Report::Copy> copies;
+    for (const Instance& instance : placement.instances) {
+        Report::Copy& copy = copies.emplace_back();
+        copy.part = instance.part;
+        copy.name = instance.name;
+        for (std::size_t row = 0; row < 3; ++row) {
+            const auto& r = instance.rotation[row];
+            copy.matrix[row] = {r[0], r[1], r[2], instance.translation[int(row)]};
+        }
+        copy.matrix[3] = {0.0, 0.0, 0.0, 1.0};
+    }
+    return copies;
+}
+
+/// Describes what the surface was made of, and by which program.
+void describeRun(const BallSet& atoms, Report& report)
+{
+    report.version = MOLSURF_VERSION;
     report.atoms = atoms.whole();
     const SelectionRecord& record = atoms.record;
+    report.input = record.input;
+    report.instances = copiesOf(atoms.placement);
     if (record.beads > 0) report.coarse = Report::Coarse{record.beads, record.beadAtoms};
     for (const ResolutionGroup& group : atoms.resolutions) {
         report.resolutions.push_back(
@@ -48,11 +68,12 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
                availableMemory());
     checkProducts(atoms, options);
     MolecularSurface result = run(atoms, options, progress);
-    describeAtoms(atoms, result.report);
+    describeRun(atoms, result.report);
     if (const std::string text = packingWarning(atoms.balls); !text.empty())
         result.report.warnings.push_back(text);
     result.report.voxel = options.voxel;
     makeProducts(atoms, options, progress, result);
+    for (const auto& grid : result.grids()) grid->setCreator("vdb_molsurf " MOLSURF_VERSION);
     return result;
 }
 

@@ -5,6 +5,7 @@
 /// A row of the tables of options of pictures and files.
 
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/settings.h"
 #include "molsurf/surface/set_value.h"
 
 #include <functional>
@@ -27,6 +28,8 @@ struct SettingRow {
     /// @param[in] values  at least one, but for a switch
     /// @throws Error(ErrorKind::Usage) if it is wrong
     std::function<void(To& to, const std::vector<std::string>& values)> set;
+    /// Its value as metadata of a file; null: it is not stored.
+    std::function<SettingValue(const To& of)> get = nullptr;
 };
 
 /// The texts of a row.
@@ -65,6 +68,14 @@ SettingRow<To> switchRow(const char* name, std::string text, unsigned shownIn, c
             shownIn,
             {},
             [of](To& to, const std::vector<std::string>&) { of(to) = true; }};
+}
+
+/// The row with its value stored in files.
+template<typename To, typename Of>
+SettingRow<To> stored(SettingRow<To> row, const Of& of)
+{
+    row.get = [of](const To& from) { return SettingValue(of(from)); };
+    return row;
 }
 
 /// The row of one of a few values that nameOf() names, the first of them the default.

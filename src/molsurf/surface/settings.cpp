@@ -287,8 +287,9 @@ std::vector<Setting> atomSettings()
              of(&SelectOptions::hetero), Hetero::All),
         flag("no-hetero", "drop all ligands and ions", of(&SelectOptions::hetero), Hetero::None),
         flag("waters", "keep waters", of(&SelectOptions::waters)),
-        flag("charges", "the charges of all atoms come along, for the files of APBS",
-             MOLSURF_OF(labels.charges)),
+        changed(flag("charges", "the charges of all atoms come along, for the files of APBS",
+                     MOLSURF_OF(labels.charges)),
+                [](Setting& row) { row.get = nullptr; }), // files of APBS alone have them
         changed(text("radii", "SET", "van der Waals radii: a name of `listRadii`, or a file", "",
                      of(&SelectOptions::radii)),
                 [](Setting& row) {

@@ -131,7 +131,7 @@ TEST(Files, HoldMeshesAsSettingsSay)
     EXPECT_HAS(errorWith("b.png", {{"center", ""}}), "`center`: ");
     EXPECT_HAS(errorWith("b.json", {{"walls", "outer"}}), "`walls`: ");
     EXPECT_HAS(errorWith("b.stl", {{"walls", "inner"}}), "expected all or outer or cavities");
-    EXPECT_HAS(errorWith("b.xyz", {}), "expected a name that ends in .ply");
+    EXPECT_HAS(errorWith("b.xyz", {}), "expected a name that ends in .vdb, .ply");
     EXPECT_HAS(errorWith("b.ply", {{"sise", "1"}}), "is named");
     EXPECT_HAS(errorOf(ErrorKind::Usage,
                        [&] {
@@ -139,6 +139,55 @@ TEST(Files, HoldMeshesAsSettingsSay)
                        }),
                "expected one surface, got 2");
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.glb", "a.obj", "a.ply", "a.stl"}));
+}
+
+/// All but films, which take the program ffmpeg.
+TEST(Files, HaveEveryEnding)
+{
+    SurfaceOptions options;
+    options.kind = SurfaceKind::SolventExcluded;
+    options.voxel = 1.0;
+    options.color = ColorBy::Chain;
+    options.ballAreas = options.contacts = options.pockets = options.pocketBodies = true;
+    const BallSet atoms = readAtoms(dataFile("1crn.pdb"), {}, 1.4);
+    const MolecularSurface made = makeSurface(atoms, options);
+    const ShownSurface shown{&atoms, &made, &options, ""};
+    const Folder folder;
+    std::size_t count = 0;
+    for (const std::string& ending : surfaceEndings()) {
+        SCOPED_TRACE(ending);
+        const bool isFilm = ending == ".mp4" || ending == ".webm" || ending == ".gif";
+        const bool isOfAPore = ending.rfind(".pore", 0) == 0 || ending.rfind(".tunnels", 0) == 0;
+        if (isFilm) continue;
+        const auto write = [&] { writeSurface({shown}, folder / "a" + ending, {}, false); };
+        if (isOfAPore)
+            EXPECT_HAS(errorOf(ErrorKind::Usage, write), "got one without");
+        else if (ending == ".interfaces.csv")
+            EXPECT_HAS(errorOf(ErrorKind::Usage, write), "expected a surface with `interfaces`");
+        else
+            EXPECT_NO_THROW(write());
+        count += !isOfAPore;
+    }
+    EXPECT_GT(count, 35u);
+    EXPECT_HAS(contentOf(folder / "a.atoms.csv"), "residue");
+    EXPECT_HAS(contentOf(folder / "a.pocket1.ply"), "element face");
+    writeSurface({shown}, folder / "turn.png", {{"turntable", "3"}, {"size", "64"}});
+    EXPECT_NE(contentOf(folder / "turn.0001.png"), contentOf(folder / "turn.0003.png"));
+    EXPECT_EQ(contentOf(folder / "a.vdb").find("option.select") == std::string::npos, false);
+}
+
+TEST(Files, SayWhatTheSurfaceWasMadeWithout)
+{
+    const Colored made;
+    const Folder folder;
+    const ShownSurface shown{&made.atoms, &made.surface, &made.options, ""};
+    const auto errorOfFile = [&](const std::string& name) {
+        return errorOf(ErrorKind::Usage, [&] { writeSurface({shown}, folder / name); });
+    };
+    EXPECT_HAS(errorOfFile("a.atoms.csv"), "a.atoms.csv: expected a surface with `ballAreas`");
+    EXPECT_HAS(errorOfFile("a.pdb"), "expected a surface with `ballAreas`");
+    EXPECT_HAS(errorOfFile("a.pockets.ply"), "expected a surface with `pockets`");
+    EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(Files, MoveAndFogALevelSet)
@@ -311,7 +360,7 @@ TEST(Files, WriteAPageThatNamesTheAtoms)
     const Folder folder;
     writePicture(made.atoms, made.surface, made.options, folder / "crambin.html");
     const std::string page = contentOf(folder / "crambin.html");
-    EXPECT_HAS(page, "<title>crambin");
+    EXPECT_HAS(page, "<title>1crn"); // the atoms' file, as the command has it
     EXPECT_HAS(page, "\"TYR\"");
     EXPECT_HAS(page, "Element");
     BallSet nameless = made.atoms;

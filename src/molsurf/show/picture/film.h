@@ -5,6 +5,7 @@
 /// Films of pictures, coded by the program ffmpeg.
 
 #include "molsurf/kernel/core/file_descriptor.h"
+#include "molsurf/progress.h"
 #include "molsurf/show/io/output_file.h"
 #include "molsurf/show/picture/draw_mesh.h"
 
@@ -14,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace molsurf::tool
+namespace molsurf
 {
 
 constexpr double filmRate = 25.0; ///< pictures a second, unless the call has others
@@ -28,11 +29,12 @@ void checkFilm(const std::string& path);
 class Film
 {
 public:
-    /// @param[in] file  to be committed after finish(); its ending says how the film is coded
-    /// @param[in] rate  pictures a second
-    Film(OutputFile& file, double rate);
+    /// @param[in] file      to be committed after finish(); its ending says how the film is coded
+    /// @param[in] rate      pictures a second
+    /// @param[in] progress  whether the run is to stop; it lives longer
+    Film(OutputFile& file, double rate, const Progress& progress);
     /// The same with a file of its own.
-    Film(std::unique_ptr<OutputFile> file, double rate);
+    Film(std::unique_ptr<OutputFile> file, double rate, const Progress& progress);
     /// Ends ffmpeg, if finish() has not.
     ~Film();
     Film(const Film&) = delete;
@@ -61,9 +63,10 @@ private:
     std::unique_ptr<OutputFile> own_;
     OutputFile& file_;
     double rate_;
+    const Progress& progress_;
     int width_ = 0, height_ = 0;   ///< [pixel]
     pid_t program_ = 0;            ///< 0: it does not run
     FileDescriptor pipe_, errors_; ///< to its input; its error messages
 };
 
-} // namespace molsurf::tool
+} // namespace molsurf

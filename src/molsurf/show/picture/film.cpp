@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "film.h"
-
-#include "outputs.h"
+#include "molsurf/show/picture/film.h"
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
@@ -24,13 +22,14 @@
 #include <utility>
 #include <vector>
 
-namespace molsurf::tool
+namespace molsurf
 {
 
 namespace
 {
 
-constexpr const char* insteadHint = " [hint: -o NAME.png writes the pictures one by one]";
+constexpr const char* insteadHint =
+    " [hint: a name that ends in .png writes the pictures one by one]";
 
 /// How ffmpeg codes the films of an ending.
 struct Coding {
@@ -130,13 +129,16 @@ void checkFilm(const std::string& path)
         throw Error(ErrorKind::Output,
                     "cannot write " + path +
                         ": expected the program ffmpeg, got none [hint: install "
-                        "ffmpeg, or -o NAME.png writes the pictures one by one]");
+                        "ffmpeg, or a name that ends in .png writes the pictures one by one]");
 }
 
-Film::Film(OutputFile& file, double rate) : file_(file), rate_(rate) {}
+Film::Film(OutputFile& file, double rate, const Progress& progress)
+    : file_(file), rate_(rate), progress_(progress)
+{
+}
 
-Film::Film(std::unique_ptr<OutputFile> file, double rate)
-    : own_(std::move(file)), file_(*own_), rate_(rate)
+Film::Film(std::unique_ptr<OutputFile> file, double rate, const Progress& progress)
+    : own_(std::move(file)), file_(*own_), rate_(rate), progress_(progress)
 {
 }
 
@@ -248,7 +250,7 @@ std::unique_ptr<OutputFile> Film::finish()
 void Film::fail()
 {
     if (program_ != 0) wait();
-    stopIfAsked(); // a signal from the keyboard ends both
+    if (progress_.cancelled()) throw Cancelled(); // a signal from the keyboard ends both
     std::string all(1 << 16, '\0'), line;
     const ssize_t size = pread(errors_.get(), all.data(), all.size(), 0);
     all.resize(std::size_t(std::max<ssize_t>(size, 0)));
@@ -265,4 +267,4 @@ void Film::fail()
                 full && mayPass(ENOSPC));
 }
 
-} // namespace molsurf::tool
+} // namespace molsurf
