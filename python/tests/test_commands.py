@@ -33,6 +33,44 @@ def test_mesh_is_that_of_the_module(tmp_path):
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
 
 
+def test_files_of_every_ending_are_those_of_the_command(crambin, tmp_path):
+    """Byte for byte, but for the run that a report and a .vdb name."""
+    apart = {".json", ".vdb", ".mp4", ".webm", ".gif"}
+    made = crambin.surface(kind="ses", voxel=1.5, color="chain", atom_areas=True, pockets=True)
+    told = [end for end in ms._core.surface_endings()
+            if not re.match(r"\.(pore|tunnels|interfaces)|\.pockets\.(?!csv)", end)]
+    assert len(told) > 25
+    (tmp_path / "a").mkdir(), (tmp_path / "b").mkdir()
+    words = [word for end in told if end not in {".mp4", ".webm", ".gif"} for word in ("-o", f"a/x{end}")]
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--surface", "ses", "--voxel", "1.5", "--color", "chain", "--pockets", "-q",
+                    *words], cwd=tmp_path, check=True)
+    for end in told:
+        if end not in {".mp4", ".webm", ".gif"}:
+            made.save(tmp_path / "b" / f"x{end}")
+        if end not in apart:
+            assert (tmp_path / "a" / f"x{end}").read_bytes() == (tmp_path / "b" / f"x{end}").read_bytes(), end
+
+    def told_of(path):
+        lines = subprocess.run([command("vdb_molsurf"), "info", path], capture_output=True, text=True, check=True).stdout.splitlines()
+        return {line for line in lines if not re.match(r"\S|    (command|commit|input_sha256|option\.(groups|lod|superpose)) ", line)}
+    assert told_of(tmp_path / "a" / "x.vdb") == told_of(tmp_path / "b" / "x.vdb")
+
+
+def test_save_takes_the_options_of_files(crambin, tmp_path):
+    made = crambin.surface(kind="ses", voxel=1.5, atom_areas=True)
+    made.save(tmp_path / "turn.png", turntable=3, width=64, background="#102030")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"turn.000{n}.png" for n in (1, 2, 3)]
+    made.save(tmp_path / "a.contacts.csv", contacts="atom")
+    assert len((tmp_path / "a.contacts.csv").read_text().splitlines()) == len(made.table("contacts", "atom")["area"]) + 1
+    (tmp_path / "a.contacts.csv").unlink()
+    with pytest.raises(ms.OptionError, match="expected a surface with atom_areas=True"):
+        crambin.surface(kind="ses", voxel=1.5).save(tmp_path / "a.atoms.csv")
+    with pytest.raises(ms.OptionError, match="turntable: .*a.ply does not show it"):
+        made.save(tmp_path / "a.ply", turntable=3)
+    with pytest.raises(TypeError, match="unexpected keyword argument 'sise'"):
+        made.save(tmp_path / "a.png", sise=3)
+
+
 PICTURE = {"view": (0.2, -1, 0.5), "up": (1, 0, 0), "turn": 30, "background": "#102030", "plain_color": "#ffd700", "style": "outline",
            "opacity": 0.4, "all_walls": True, "clip": 2.5, "depth_cue": True, "legend": "on", "scale_bar": True, "dpi": 300}
 
@@ -201,7 +239,7 @@ def test_wrong_panels_and_notes(tmp_path):
                                (ms.OptionError, "`label`: expected SELECTION", {"label": [((1, 2, 3), "")]})):
         with pytest.raises(error, match=said):
             made.picture(tmp_path / "a.png", 80, **given)
-    with pytest.raises(ValueError, match="panels: expected a path that ends in .png or .html"):
+    with pytest.raises(ValueError, match="expected one surface, got 2"):
         made.save(tmp_path / "a.ply", panels=[made])
     assert not list(tmp_path.iterdir())
 

@@ -10,16 +10,15 @@ import sys
 
 import vdb_molsurf as ms
 from conftest import ROOT
-from vdb_molsurf import _options
+from vdb_molsurf import _core, _options
 
 # Options of files, terminals and machines, which a module has no use for.
 OF_A_PROGRAM = {"output", "format", "force", "memory", "max-hours", "dry-run", "require", "skip-existing", "threads", "quiet", "verbose",
                 "no-progress", "config", "help", "help-all", "version", "list-radii"}
-# Options that Python has in another form: groups=, table(), contacts, Molecule.superpose(), to_vdb(scene=), picture(width, turn=), and for trajectories
+# Options that Python has in another form: groups=, table(), Molecule.superpose(), save(scene=), picture(width), and for trajectories
 # the molecules of MDAnalysis and MDTraj, one surface a frame. Its meshes have all copies: their borders are welded, and none is
 # placed by a level of detail.
-OTHERWISE = {"groups", "areas", "contacts", "for", "size", "turntable", "frames", "first-frame", "trajectory", "update-selections", "superpose",
-             "fps", "weld", "lod"}
+OTHERWISE = {"groups", "areas", "for", "size", "frames", "first-frame", "trajectory", "update-selections", "superpose", "weld", "lod"}
 COMMAND_LINE = OF_A_PROGRAM | OTHERWISE
 # Keywords of what files of atoms have, which the command line takes along by itself.
 OF_PYTHON = {"charges"}
@@ -37,7 +36,7 @@ def of_files():
     methods = (ms.Surface.save, ms.Surface.to_vdb, ms.Surface.to_apbs, ms.Surface.picture)
     parameters = {name for method in methods for name in inspect.signature(method).parameters}
     return {name.replace("_", "-").replace("panels", "panel")
-            for name in parameters - {"self", "path", "folder", "width", "replace", "scene"}}
+            for name in parameters - {"self", "path", "folder", "width", "replace", "scene", "look"}}
 
 
 def test_command_line_and_keywords_have_the_same_names_and_defaults():
@@ -49,6 +48,15 @@ def test_command_line_and_keywords_have_the_same_names_and_defaults():
         assert name in OF_PYTHON or told[name] == row["preset"] or name == "steps", name
         words = " ".join(row["text"].split())
         assert row["text"] and "--" not in words
+
+
+def test_save_writes_the_endings_of_the_command_line():
+    """All but the tables of frames, which are of several surfaces."""
+    page = (ROOT / "docs" / "options.md").read_text()
+    row = re.search(r"^\| `--output FILE`, `-o` \| (.*?) \| .*\bbuild\b", page, re.MULTILINE)[1]
+    told = set(re.findall(r"\.[a-z0-9_]+(?:\.[a-z0-9_]+)*", row))
+    assert {".vdb", ".ply", ".atoms.csv", ".legend.svg"} <= told
+    assert told - set(_core.surface_endings()) == {".csv"}
 
 
 def test_keywords_are_names_of_python():

@@ -170,6 +170,12 @@ def _named(surface, panels):
     return own, [(title, one._core) for title, one in zip(titles, others)]
 
 
+# The options of pictures by their keywords.
+LOOK = {"width": "size", **{name: name.replace("_", "-") for name in (
+    "view", "up", "turn", "background", "plain_color", "style", "opacity", "all_walls", "clip", "depth_cue", "legend", "scale_bar",
+    "dpi")}}
+
+
 class Surface:
     """The surface of a molecule: what surface() and Molecule.surface() make.
 
@@ -408,21 +414,38 @@ class Surface:
         """The voxels of the level set, about three on either side of the surface, and their signed distances."""
         return Voxels(*self._core.voxels())
 
-    def save(self, path, *, replace=True, panels=None, walls=None, crisp=False, center=False, print_scale=None, label=(), ruler=()):
-        """Writes a file; its extension says what: that of a mesh (.ply, .obj, .stl, ...), .vdb, .json, .png, or .html, a page.
+    def save(self, path, *, replace=True, panels=None, walls=None, crisp=False, center=False, print_scale=None, label=(), ruler=(),
+             show=None, scene=None, turntable=None, fps=None, contacts=None, **look):
+        """Writes the file that the command writes under the same name; how the name ends says what.
 
-        panels: further surfaces of a .png or .html, as of picture().
+        It is a mesh (.ply, .obj, .stl, .glb, .usda, ...), the grids (.vdb, .nvdb) or the level set in a box (.mrc, .dx), a report
+        (.json), a picture (.png), film (.mp4, .webm, .gif), page (.html), legend (.legend.svg) or view (.view), a script for
+        ChimeraX or PyMOL that opens the mesh of that name (.cxc: .glb, .pml: .ply), a table (.atoms.csv, .residues.csv, ...), or
+        atoms with their areas (.pdb, .cif). Tables and areas need a surface that was made with them, as atom_areas=True.
+
+        panels: further surfaces of pictures, films and pages, as of picture().
         walls: closed pieces that meshes, pictures and pages have: "all", "outer" or "cavities".
         crisp: cuts the triangles of a mesh file where colours meet.
         center: moves the middle of the surface to the origin, in meshes and .vdb.
         print_scale: .stl, .obj, .wrl and .3mf are in mm, at this many mm per Å.
-        label: texts of a .png, as of picture().
-        ruler: lines of a .png, as of picture().
+        label: texts of a picture, as of picture().
+        ruler: lines of a picture, as of picture().
+        show: atoms of a picture, as of picture().
+        scene: the program that a .vdb, .glb or .usda is for, as of to_vdb().
+        turntable: number of pictures round the upright: name.0001.png, ..., or those of a film, 36 without it.
+        fps: pictures of a film per second; None: 25.
+        contacts: level of a .contacts.csv, "atom", "residue" or "chain"; None: "residue".
+        look: further keywords of picture(): width, view, background and others.
+
+        Raises OptionError if the name ends otherwise, or if the file does not show what was asked or needs what the surface
+        was made without; OutputError if it cannot be written.
         """
-        if panels is not None and not os.fspath(path).endswith((".png", ".html")):
-            raise ValueError("panels: expected a path that ends in .png or .html")
-        self._save(path, replace, {"walls": walls, "crisp": crisp, "center": center, "print-scale": print_scale}, panels,
-                   more=self._notes(label, ruler))
+        unknown = sorted(set(look) - set(LOOK))
+        if unknown:
+            raise TypeError(f"save() got an unexpected keyword argument '{unknown[0]}'")
+        given = {"walls": walls, "crisp": crisp, "center": center, "print-scale": print_scale, "for": scene, "turntable": turntable,
+                 "fps": fps, "contacts": contacts, **{LOOK[name]: value for name, value in look.items()}}
+        self._save(path, replace, given, panels, show, self._notes(label, ruler))
 
     def _save(self, path, replace, options, panels=None, show=None, more=()):
         """Writes a file with options of the command line, those that are not None or False; messages name Python's keywords."""
@@ -432,7 +455,7 @@ class Surface:
             self._core.save(os.fspath(path), bool(replace), [*settings, *more], (name, others, _shown(show)))
         except _core.OptionError as error:
             words = str(error)
-            for ours, theirs in (("`size`", "width"), ("`for`", "scene")):
+            for ours, theirs in (("`size`", "width"), ("`for`", "scene"), ("`ball_areas`", "atom_areas=True")):
                 words = words.replace(ours, theirs)
             raise type(error)(words) from None
         except _core.OutputError as error:
@@ -499,10 +522,9 @@ class Surface:
         path = os.fspath(path)
         if not path.endswith(".png"):
             raise ValueError("picture: expected a name that ends in .png")
-        given = {"size": int(width), "view": view, "up": up, "turn": turn, "background": background, "plain-color": plain_color, "style": style,
-                 "opacity": opacity, "all-walls": all_walls, "clip": clip, "depth-cue": depth_cue, "legend": legend,
-                 "scale-bar": scale_bar, "dpi": dpi, "walls": walls}
-        self._save(path, replace, given, panels, show, self._notes(label, ruler))
+        self.save(path, replace=replace, panels=panels, walls=walls, label=label, ruler=ruler, show=show, width=int(width), view=view,
+                  up=up, turn=turn, background=background, plain_color=plain_color, style=style, opacity=opacity,
+                  all_walls=all_walls, clip=clip, depth_cue=depth_cue, legend=legend, scale_bar=scale_bar, dpi=dpi)
 
     def _at(self, keyword, place):
         """A place, or the middle of a selection, as it is typed, and what is there."""
