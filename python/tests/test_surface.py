@@ -249,7 +249,7 @@ def test_a_page_has_the_colours_and_names_of_the_atoms(crambin, tmp_path):
     s = crambin.surface(kind="ses", voxel=1, color="chain")
     s.save(tmp_path / "crambin.html")
     page = (tmp_path / "crambin.html").read_text()
-    assert page.startswith("<!DOCTYPE html>") and "<title>crambin" in page and "TYR" in page
+    assert page.startswith("<!DOCTYPE html>") and "<title>1crn" in page and "TYR" in page
     view = s.view(300)
     shown = view._repr_html_()
     assert "\n" not in repr(view)

@@ -269,13 +269,13 @@ const MeshFormat* meshFormatOf(const std::string& ending)
 /// Refuses a name that ends in no format.
 [[noreturn]] void refuseName(const std::string& path)
 {
-    std::vector<std::string> words; // without those of tables
-    for (const Format& format : formatTable())
-        if (format.write && !(format.holds & (holds::Solver | holds::Areas)))
-            words.push_back("." + std::string(format.word));
-    throw Error(ErrorKind::Usage, path + ": expected a name that ends in " +
-                                      joinWords(words, ", ") +
-                                      ", or in the name of a table, as .atoms.csv");
+    const std::string word = formatWordOf(path);
+    std::vector<std::string> known;
+    for (const std::string& ending : surfaceEndings()) known.push_back(ending.substr(1));
+    throw Error(ErrorKind::Usage, path +
+                                      ": expected a name that ends in .vdb, .ply, .json, .png, "
+                                      ".html, .atoms.csv or another format, got " +
+                                      inQuotes(word) + didYouMean(word, known));
 }
 
 /// Writes the files of a name, whose format is known.
