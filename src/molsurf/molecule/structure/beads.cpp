@@ -37,7 +37,7 @@ bool isWaterBead(string_view name)
 
 /// Charges beside the beads of polarizable Martini: of amino acids and of water, and those of
 /// HADDOCK. They have no size.
-bool isCharge(string_view name)
+bool isDummyCharge(string_view name)
 {
     return isOneOf(name, {"SCP", "SCN", "WP", "WM"}) || isNumbered(name, "SCD");
 }
@@ -100,7 +100,7 @@ std::vector<std::size_t> extrasOf(const Structure& structure)
     const Model& model = structure.models.front();
     for (std::size_t i = model.begin; i < model.end; ++i) {
         const Atom& atom = structure.atoms[i];
-        if (isCharge(atom.name) || isGoSite(atom, residues.at(atom.residue))) out.push_back(i);
+        if (isDummyCharge(atom.name) || isGoSite(atom, residues.at(atom.residue))) out.push_back(i);
     }
     return out;
 }
@@ -112,7 +112,7 @@ bool isMartini(const Structure& structure)
     for (std::size_t i = model.begin; i < model.end; ++i) ++names[structure.atoms[i].name];
     std::size_t beads = 0, certain = 0;
     for (const auto& [name, count] : names) {
-        if (isBead(name) || isCharge(name)) beads += count;
+        if (isBead(name) || isDummyCharge(name)) beads += count;
         if (isCertainBead(name)) certain += count;
     }
     if (certain == 0) return false;

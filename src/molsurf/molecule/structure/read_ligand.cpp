@@ -345,7 +345,7 @@ bool endInNumbers(const std::set<std::string>& names)
 }
 
 /// Whether a field is a number with a decimal point: a charge, where a name may be missing.
-bool isCharge(string_view field)
+bool isChargeField(string_view field)
 {
     double charge = 0.0;
     return field.find('.') != string_view::npos && parseNumber(field, charge);
@@ -437,7 +437,7 @@ private:
     {
         Fields fields = splitFields(line);
         for (const Column column : {SubstId, SubstName})
-            if (fields.size() > column && isCharge(fields[column]))
+            if (fields.size() > column && isChargeField(fields[column]))
                 fields.insert(fields.begin() + column, string_view());
         return fields;
     }

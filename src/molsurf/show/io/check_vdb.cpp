@@ -28,14 +28,14 @@ namespace io = openvdb::io;
 }
 
 /// A type of values, by its name in a file.
-struct Type {
+struct VoxelType {
     std::string_view name;
     std::uint64_t size, half; ///< of a value, and of one as half floats [byte]
 };
 
-constexpr Type types[] = {{"float", 4, 2},  {"double", 8, 2},  {"int32", 4, 4},
-                          {"int64", 8, 8},  {"vec3i", 12, 12}, {"vec3s", 12, 6},
-                          {"vec3d", 24, 6}, {"bool", 1, 1},    {"mask", 1, 1}};
+constexpr VoxelType types[] = {{"float", 4, 2},  {"double", 8, 2},  {"int32", 4, 4},
+                               {"int64", 8, 8},  {"vec3i", 12, 12}, {"vec3s", 12, 6},
+                               {"vec3d", 24, 6}, {"bool", 1, 1},    {"mask", 1, 1}};
 
 constexpr const char* frustum = "NonlinearFrustumMap"; ///< holds another map
 
@@ -152,7 +152,7 @@ private:
     void setType(const std::string& name)
     {
         const auto type = std::find_if(std::begin(types), std::end(types),
-                                       [&](const Type& t) { return t.name == name; });
+                                       [&](const VoxelType& t) { return t.name == name; });
         if (type == std::end(types)) refuseBytes("it has a grid of type " + name);
         type_ = *type;
     }
@@ -293,7 +293,7 @@ private:
 
     std::istream& stream_;
     std::uint64_t left_; // bytes of the file
-    Type type_ = types[0];
+    VoxelType type_ = types[0];
     bool half_ = false;
     std::uint32_t compression_ = 0;
     std::uint64_t leaves_ = 0; // of the tree at hand

@@ -12,12 +12,12 @@ namespace molsurf
 namespace
 {
 
-enum class Type { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float, Double };
+enum class NumberType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float, Double };
 
 struct Property {
     std::string name;
-    Type type;
-    std::optional<Type> count; ///< of a list: the type of its length
+    NumberType type;
+    std::optional<NumberType> count; ///< of a list: the type of its length
 };
 
 struct Element {
@@ -33,17 +33,19 @@ struct Header {
     std::vector<Element> elements;
 };
 
-Type typeOf(const MeshText& text, std::string_view word)
+NumberType typeOf(const MeshText& text, std::string_view word)
 {
     static const struct {
         const char* name;
-        Type type;
-    } names[] = {{"char", Type::Int8},     {"int8", Type::Int8},     {"uchar", Type::Uint8},
-                 {"uint8", Type::Uint8},   {"short", Type::Int16},   {"int16", Type::Int16},
-                 {"ushort", Type::Uint16}, {"uint16", Type::Uint16}, {"int", Type::Int32},
-                 {"int32", Type::Int32},   {"uint", Type::Uint32},   {"uint32", Type::Uint32},
-                 {"float", Type::Float},   {"float32", Type::Float}, {"double", Type::Double},
-                 {"float64", Type::Double}};
+        NumberType type;
+    } names[] = {{"char", NumberType::Int8},     {"int8", NumberType::Int8},
+                 {"uchar", NumberType::Uint8},   {"uint8", NumberType::Uint8},
+                 {"short", NumberType::Int16},   {"int16", NumberType::Int16},
+                 {"ushort", NumberType::Uint16}, {"uint16", NumberType::Uint16},
+                 {"int", NumberType::Int32},     {"int32", NumberType::Int32},
+                 {"uint", NumberType::Uint32},   {"uint32", NumberType::Uint32},
+                 {"float", NumberType::Float},   {"float32", NumberType::Float},
+                 {"double", NumberType::Double}, {"float64", NumberType::Double}};
     for (const auto& known : names)
         if (word == known.name) return known.type;
     text.fail("a type of PLY", word);
@@ -104,9 +106,10 @@ public:
         if (!text_.nextLine())
             badMesh("cut short: expected " + name + " " + std::to_string(index + 1));
     }
-    double value(Type type)
+    double value(NumberType type)
     {
-        if (type == Type::Float || type == Type::Double) return text_.number<double>("a number");
+        if (type == NumberType::Float || type == NumberType::Double)
+            return text_.number<double>("a number");
         return double(text_.number<std::int64_t>("a whole number"));
     }
 
@@ -125,24 +128,24 @@ public:
         name_ = &name;
         index_ = index;
     }
-    double value(Type type)
+    double value(NumberType type)
     {
         switch (type) {
-        case Type::Int8:
+        case NumberType::Int8:
             return take<std::int8_t>();
-        case Type::Uint8:
+        case NumberType::Uint8:
             return take<std::uint8_t>();
-        case Type::Int16:
+        case NumberType::Int16:
             return take<std::int16_t>();
-        case Type::Uint16:
+        case NumberType::Uint16:
             return take<std::uint16_t>();
-        case Type::Int32:
+        case NumberType::Int32:
             return take<std::int32_t>();
-        case Type::Uint32:
+        case NumberType::Uint32:
             return take<std::uint32_t>();
-        case Type::Float:
+        case NumberType::Float:
             return double(take<float>());
-        case Type::Double:
+        case NumberType::Double:
             return take<double>();
         }
         return 0.0;
