@@ -44,6 +44,7 @@
 #include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -85,8 +86,10 @@ openvdb::MetaMap vdbMetadata(const CommandLine& call, const Report& report)
     if (!report.commit.empty()) to.text("commit", report.commit);
     if (!report.inputSha256.empty()) to.text("input_sha256", report.inputSha256);
     to.count("atoms", std::int64_t(report.atoms));
-    to.number("area", report.surface.area);
-    to.number("volume", report.surface.volume);
+    if (!std::isnan(report.surface.area)) {
+        to.number("area", report.surface.area);
+        to.number("volume", report.surface.volume);
+    }
 
     if (call.frame > 0) {
         to.count("frame", call.frame);

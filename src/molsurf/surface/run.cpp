@@ -53,6 +53,7 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
         result.report.warnings.push_back(text);
     result.report.voxel = options.voxel;
     makeProducts(atoms, options, progress, result);
+    if (!needsOf(atoms, options).levelSet) result.surface.reset();
     return result;
 }
 
