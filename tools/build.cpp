@@ -112,13 +112,17 @@ std::string summary(const Report& report)
     const SurfaceReport& surface = report.surface;
     const bool exact = surface.kind == "ses" || surface.kind == "sas" || surface.kind == "vdw";
     const bool byMesh = exact && surface.triangles > 0 && !surface.meshArea;
-    std::string line = formatted("%s%s: area %.1f Å^2, volume %.1f Å^3, ", surface.kind.c_str(),
-                                 byMesh ? " by its mesh" : "", surface.area, surface.volume);
+    std::string line = surface.kind + (byMesh ? " by its mesh: " : ": ");
+    if (!std::isnan(surface.area))
+        line += formatted("area %.1f Å^2, volume %.1f Å^3, ", surface.area, surface.volume);
     if (surface.piecesKnown) {
         line += counted(std::size_t(surface.components), "component", "components") + ", ";
         line += counted(surface.cavities.size(), "cavity", "cavities") + ", ";
     }
-    if (surface.triangles > 0) line += counted(surface.triangles, "triangle", "triangles") + ", ";
+    if (surface.triangles > 0)
+        line += counted(surface.triangles, "triangle", "triangles") + ", ";
+    else if (report.activeVoxels > 0)
+        line += counted(report.activeVoxels, "active voxel", "active voxels") + ", ";
     line += formatted("%.2f s", report.seconds.back().second);
     if (!report.areasOf.empty() && report.areasOf != surface.kind)
         line += "; areas of atoms and groups: " + report.areasOf + " [hint: --surface]";
@@ -248,6 +252,28 @@ bool dependsOnGaps(const CommandLine& call)
     return ofPieces || ofAreas || options.pockets || options.fillCavities || call.verbose;
 }
 
+/// Whether a call shows the mesh, or what is measured on it.
+bool readsMesh(const CommandLine& call)
+{
+    constexpr unsigned ofLevelSet = heldByVdb | heldByNvdb | Volume | Solver;
+    const bool inFiles = call.outputs.empty() || call.writes(~ofLevelSet);
+    return inFiles || call.verb != Build || !call.frames.empty() || !call.required.empty() ||
+           call.center;
+}
+
+/// What the files, the options and the lines at the end of a call read of a surface.
+void chooseWork(CommandLine& call)
+{
+    SurfaceOptions& options = call.options;
+    options.closedForm = needsClosedForm(call);
+    options.meshLabels = call.writes(Triangles | PlainColor);
+    options.energy = options.needs.statistics = call.writes(Numbers);
+    options.needs.passages = call.writes(Numbers) || dependsOnGaps(call);
+    options.needs.mesh = readsMesh(call);
+    options.needs.levelSet = call.writes(anyGrids | Stage | Volume | Solver);
+    options.pocketBodies = wantsBodies(call);
+}
+
 /// A line on what the field closes, with what opens the widest of it, and all; empty if that is
 /// narrow.
 std::string closedByField(const Report& report, const SurfaceOptions& options)
@@ -280,7 +306,7 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
 {
     stopIfAsked();
     checkGroups(call, balls);
-    call.options.closedForm = needsClosedForm(call);
+    chooseWork(call);
     const RunLimits limits = limitsOf(call, balls);
     const double seconds = checkCost(balls, call.options, limits, terminal);
     constexpr double any = std::numeric_limits<double>::infinity();
@@ -291,9 +317,6 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
         terminal.expect(stagesOf(call.options, limits.besides.seconds / (seconds + 1e-9)),
                         seconds / limits.threads);
     }
-    call.options.meshLabels = call.writes(Triangles | PlainColor);
-    call.options.energy = call.writes(Numbers);
-    call.options.pocketBodies = wantsBodies(call);
     MolecularSurface result;
     try {
         result = makeUnitSurface(balls, call.options, &terminal);
@@ -339,7 +362,7 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     shown.bodies = bodies;
     shown.drawnBodies = drawn;
     shown.coarser = coarserMeshes(call, balls, result.report, terminal);
-    if (!call.writes(anyGrids | Stage | Volume | Solver)) dropGrids(result);
+    if (!call.options.needs.levelSet) dropGrids(result);
     writeAll(call, balls, result, shown, terminal, start, companions);
     terminal.erase();
     return result.report;

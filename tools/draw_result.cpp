@@ -110,6 +110,7 @@ SurfaceOptions shownOptions(const SurfaceOptions& asked)
 {
     Products shown;
     shown.energy = shown.closedForm = false;
+    shown.needs.levelSet = shown.needs.statistics = shown.needs.passages = false;
     shown.meshLabels = asked.meshLabels;
     shown.meshEdge = asked.meshEdge;
     shown.meshError = asked.meshError;

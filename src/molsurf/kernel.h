@@ -83,6 +83,20 @@ struct SurfaceSpec {
     bool matchVolume = false;
 };
 
+/// Results that a run leaves out where nobody reads them, and the time that they take.
+struct Needs {
+    /// The mesh, and what is measured on it. Without it, and where no closed form has them, area
+    /// and volume are not numbers, and pieces are not known. A surface that only a mesh can check
+    /// has one in any case: on voxels above 0.7 of the largest radius, or with a piece as small as
+    /// one.
+    bool mesh = true;
+    bool levelSet = true;   ///< distances on the voxels of LevelSetSurface::surface; else they have
+                            ///< its signs, and makeSurface() gives none
+    bool statistics = true; ///< SurfaceReport::gradientShare and kinkShare, else not a number, and
+                            ///< the statistics of curvatures
+    bool passages = true;   ///< EvolutionReport::Gaps::closedByField
+};
+
 /// Products that are made of the level set and of its mesh.
 struct KernelProducts {
     /// Names of further grids to make, of the list in docs/options.md: "density", "Cd", or a
@@ -98,6 +112,7 @@ struct KernelProducts {
     bool curvatureTotals = false; ///< whether the report has the integrals of curvature
     bool ballAreas = false;       ///< whether LevelSetSurface::ballAreas is made; the kernel knows
                                   ///< those of surfaces in closed form
+    Needs needs{};                ///< of those who read the result
 };
 
 /// A surface as a level set and as a mesh.

@@ -48,6 +48,31 @@ class Report(ToolTest):
             {"read", "density", "evolve", "redistance", "spline", "mesh", "write",
              "total"}, set(report["seconds"]))
 
+    def test_files_alone_have_what_they_have_together(self):
+        """What nobody reads is left out: the mesh of a level set alone, distances where only the mesh is written."""
+        for words in ["--voxel", 0.7], ["--voxel", 0.7, "--surface", "ses"]:
+            self.check(0, CRAMBIN, *words, "-q", "-o", "b.ply", "-o", "b.vdb", "-o", "b.json", "--force")
+            done = self.check(0, CRAMBIN, *words, "-o", "v.vdb", "--force").stderr.decode()
+            self.assertRegex(done, r": (variational|ses): \d+ active voxels, \d")
+            self.check(0, CRAMBIN, *words, "-q", "-o", "p.ply", "-o", "c.ply", "--force")
+            self.assertEqual((self.folder / "p.ply").read_bytes(), (self.folder / "b.ply").read_bytes())
+            self.check(0, CRAMBIN, *words, "-q", "-o", "j.json", "--force")
+            both, alone = [json.loads((self.folder / name).read_text()) for name in ("b.json", "j.json")]
+            for key in "surface", "evolution", "grid":
+                if words[-1] != "ses":  # whose report alone needs no grid
+                    self.assertEqual(alone[key], both[key])
+            for name in "b", "v":
+                self.check(0, "convert", name + ".vdb", "-q", "-o", name + "2.ply", "--force")
+            self.assertEqual((self.folder / "b2.ply").read_bytes(), (self.folder / "v2.ply").read_bytes())
+            known = [self.check(0, "info", name).stdout.decode() for name in ("b.vdb", "v.vdb")]
+            self.assertEqual([re.search(r"^ *area +\d+\.\d+$", text, re.M) is not None for text in known], [True, False])
+
+    def test_a_level_set_alone_is_measured_where_that_is_asked_for(self):
+        self.check(0, CRAMBIN, *FAST, "-o", "a.vdb", "--require", "watertight", "--force", says="triangles")
+        # Group by group, and on voxels that only a mesh can check.
+        self.check(0, CRAMBIN, "--voxel", 1.5, "-o", "a.vdb", "--force", says="triangles")
+        self.check(0, CRAMBIN, *FAST, "--color", "mean-curvature", "-o", "a.vdb", "--force", says="triangles")
+
     def test_values(self):
         report = self.report("-j", "1", *FAST)
         self.assertEqual(report["program"], "vdb_molsurf")

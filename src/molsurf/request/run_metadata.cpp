@@ -3,6 +3,7 @@
 
 #include "molsurf/show/io/scene.h"
 
+#include <cmath>
 #include <string>
 
 namespace molsurf
@@ -31,8 +32,10 @@ openvdb::MetaMap runMetadata(const Request& request, const Report& report)
     if (!report.commit.empty()) add("commit", report.commit);
     if (!report.inputSha256.empty()) add("input_sha256", report.inputSha256);
     add("atoms", std::int64_t(report.atoms));
-    add("area", report.surface.area);
-    add("volume", report.surface.volume);
+    if (!std::isnan(report.surface.area)) {
+        add("area", report.surface.area);
+        add("volume", report.surface.volume);
+    }
     if (request.frame > 0) {
         add("frame", std::int64_t(request.frame));
         add("trajectory", request.trajectory.empty() ? request.input : request.trajectory);

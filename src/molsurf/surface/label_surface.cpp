@@ -182,7 +182,8 @@ std::vector<double> labelSurface(const BallSet& atoms, const SurfaceOptions& opt
 {
     Owned owned = result.surface ? label(atoms, options, std::move(known), reach, progress, result)
                                  : Owned{{}, std::move(known)};
-    if (atoms.labels && !atoms.labels->groups.empty())
+    const bool measured = !result.surface || !result.mesh.triangles.empty();
+    if (measured && atoms.labels && !atoms.labels->groups.empty())
         reportGroups(atoms, options, owned, reach, progress, result);
     return std::move(owned.areas);
 }

@@ -244,7 +244,9 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
         try {
             const BallSet own = subset(all, part.balls);
             checkBalls(own.balls, options, Pieces::One, availableMemory());
-            result = runWhole(own, {ofKind(options, part.kind), options}, quiet);
+            SurfaceOptions ofPart{ofKind(options, part.kind), options};
+            ofPart.needs.levelSet = true; // a field of the whole
+            result = runWhole(own, ofPart, quiet);
             result.report.atoms = part.balls.size();
         } catch (const Error& e) {
             throw Error(e, part.name + ": " + e.what());
@@ -269,6 +271,7 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
                      [](const SurfaceReport::Cavity& a, const SurfaceReport::Cavity& b) {
                          return a.volume > b.volume;
                      });
+    if (!options.needs.statistics) return whole;
     const std::vector<float> areas = vertexAreas(whole.mesh, progress);
     SurfaceReport& surface = whole.report.surface; // the first scalars are H and K
     surface.meanCurvature = statistics(whole.mesh.scalars[0].values, areas);

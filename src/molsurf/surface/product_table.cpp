@@ -211,17 +211,20 @@ const std::vector<ProductRow>& productTable()
 {
     static const std::vector<ProductRow> rows = {
         {"`surface`", InClosedForm, [](auto&, auto& o) { return !isClosedForm(o); }},
-        {"`split`", InBricks | BySymmetry | InClosedForm | ByAtom,
+        {"`split`", InBricks | BySymmetry | InClosedForm | ByAtom | WithoutMesh,
          [](auto&, auto& o) { return o.split; }, needGroups},
-        {"`surfaceOf`", InBricks | BySymmetry | InClosedForm | ByAtom,
+        {"`surfaceOf`", InBricks | BySymmetry | InClosedForm | ByAtom | WithoutMesh,
          [](auto&, auto& o) { return !o.surfaceOf.empty(); }, needGroups},
-        {"`instances`", always, [](auto& atoms, auto&) { return ofPrototypes(atoms); }, needGroups},
-        {"colours by curvature", always, [](auto&, auto& o) { return kindOf(o.color).ofCurvature; },
-         nullptr, makeCurvatureColors},
+        {"`instances`", WithoutMesh, [](auto& atoms, auto&) { return ofPrototypes(atoms); },
+         needGroups},
+        {"colours by curvature", WithoutMesh,
+         [](auto&, auto& o) { return kindOf(o.color).ofCurvature; }, nullptr, makeCurvatureColors},
+        {"`color` by value or pocket", WithoutMesh,
+         [](auto&, auto& o) { return o.color == ColorBy::Value || o.color == ColorBy::Pocket; }},
         {"areas", always, [](auto&, auto& o) { return o.ballAreas || o.contacts || o.interfaces; },
          nullptr, nameAreas},
-        {"`interfaces`", InBricks, [](auto&, auto& o) { return o.interfaces; }, needGroups,
-         makeInterfaces, costOfInterfaces},
+        {"`interfaces`", InBricks | WithoutMesh, [](auto&, auto& o) { return o.interfaces; },
+         needGroups, makeInterfaces, costOfInterfaces},
         {"`pockets`", InBricks | BySymmetry, [](auto&, auto& o) { return wantsPockets(o); },
          needOnePrototype,
          [](MadeRun& run) { addPockets(run.atoms, run.options, run.progress, run.result); },
@@ -234,8 +237,8 @@ const std::vector<ProductRow>& productTable()
          needOnePlace<ofTunnels>,
          [](MadeRun& run) { addTunnels(run.atoms, run.options, run.progress, run.result.report); },
          costOfTunnels},
-        {"areas of atoms", always, [](auto&, auto& o) { return o.ballAreas; }, needAreas, makeAreas,
-         costOfAreas},
+        {"areas of atoms", WithoutMesh, [](auto&, auto& o) { return o.ballAreas; }, needAreas,
+         makeAreas, costOfAreas},
         {"contacts", always, [](auto&, auto& o) { return o.contacts; }, nullptr,
          [](MadeRun& run) {
              run.result.contacts =
@@ -244,24 +247,24 @@ const std::vector<ProductRow>& productTable()
          costOfContacts},
         {"`fields` depth", InBricks, [](auto&, auto& o) { return hasField(o.fields, "depth"); },
          nullptr, makeDepths, costOfDepths},
-        {ofMeasures, always, [](auto&, auto& o) { return !o.measures.empty(); },
+        {ofMeasures, WithoutMesh, [](auto&, auto& o) { return !o.measures.empty(); },
          needOnePlace<ofMeasures>, makeMeasures, costOfMeasures},
         {"`halfFloats`", always, [](auto&, auto& o) { return o.halfFloats; }, nullptr,
          [](MadeRun& run) { saveAsHalf(run.result.grids()); }},
         // The stages make the others.
         {"`matchVolume`", InBricks | BySymmetry, [](auto&, auto& o) { return o.matchVolume; },
          nullptr, nullptr, costOfMatch},
-        {"`fillCavities`", InBricks | BySymmetry | InClosedForm,
+        {"`fillCavities`", InBricks | BySymmetry | InClosedForm | WithoutMesh,
          [](auto&, auto& o) { return o.fillCavities; }},
         {"`minWall`", InBricks, [](auto&, auto& o) { return o.minWall > 0.0; }, nullptr, nullptr,
          costOfWall},
         {"a solvent-excluded surface without `grid`", BySymmetry,
          [](auto&, auto& o) { return !o.grid && !isBoundary(o); }},
-        {"`curvatureTotals`", InBricks | BySymmetry | InClosedForm,
+        {"`curvatureTotals`", InBricks | BySymmetry | InClosedForm | WithoutMesh,
          [](auto&, auto& o) { return o.curvatureTotals; }, nullptr, nullptr, costOfCurvature},
-        {"`remesh`", InBricks | BySymmetry | InClosedForm,
+        {"`remesh`", InBricks | BySymmetry | InClosedForm | WithoutMesh,
          [](auto&, auto& o) { return o.meshEdge > 0.0; }, nullptr, nullptr, costOfRemesh},
-        {"`splineLevel`", InBricks, [](auto&, auto& o) { return o.splineLevel > 0; }},
+        {"`splineLevel`", InBricks | WithoutMesh, [](auto&, auto& o) { return o.splineLevel > 0; }},
         {"`flow` paper", InBricks,
          [](auto&, auto& o) { return hasFlow(o.kind) && o.evolution.flow == Flow::Paper; }},
         {"`color` by curvature", InBricks,
@@ -269,11 +272,10 @@ const std::vector<ProductRow>& productTable()
     return rows;
 }
 
-std::string missingIn(Way way, const SurfaceOptions& options)
+std::string missingIn(Way way, const SurfaceOptions& options, const BallSet& atoms)
 {
-    static const BallSet none; // what only atoms ask for has no way that lacks it
     for (const ProductRow& row : productTable())
-        if ((row.missingIn & way) && row.asked(none, options)) return row.name;
+        if ((row.missingIn & way) && row.asked(atoms, options)) return row.name;
     for (const FieldRow& row : fieldTable())
         if ((row.missingIn & way) && hasField(options.fields, row.name))
             return "`fields` " + row.name;
@@ -286,6 +288,16 @@ std::string missingIn(Way way, const SurfaceOptions& options)
 bool hasClosedForm(const SurfaceOptions& options)
 {
     return missingIn(InClosedForm, options).empty();
+}
+
+Needs needsOf(const BallSet& atoms, const SurfaceOptions& options)
+{
+    Needs needs = options.needs;
+    needs.mesh = needs.mesh || !missingIn(WithoutMesh, options, atoms).empty();
+    // Groups have the volumes that interpolated distances enclose.
+    const bool grouped = atoms.labels && !atoms.labels->groups.empty();
+    needs.levelSet = needs.levelSet || grouped || !options.fields.empty();
+    return needs;
 }
 
 void checkWay(Way way, const SurfaceOptions& options)

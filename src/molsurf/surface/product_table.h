@@ -19,7 +19,8 @@ enum Way : unsigned {
     InBricks = 1,     ///< part of space by part
     BySymmetry = 2,   ///< from one unit, which rotations repeat
     InClosedForm = 4, ///< without voxels
-    ByAtom = 8        ///< with areas of atoms
+    ByAtom = 8,       ///< with areas of atoms
+    WithoutMesh = 16  ///< a level set alone
 };
 
 /// A run whose level set, mesh and measures are made, and whose products follow.
@@ -63,11 +64,16 @@ struct MeasureRow {
 const std::vector<MeasureRow>& measureTable();
 
 /// The request of the options that a way cannot give, in backticks; "": it gives all.
-std::string missingIn(Way way, const SurfaceOptions& options);
+/// @param[in] atoms  for what only they ask for
+std::string missingIn(Way way, const SurfaceOptions& options, const BallSet& atoms = {});
 
 /// Tells whether SurfaceOptions::grid may be false: area, volume and pieces of the surface, and the
 /// areas of its balls, are known in closed form, and nothing is asked for that needs voxels.
 bool hasClosedForm(const SurfaceOptions& options);
+
+/// What the stages have to make: what the options say that readers of the result need, and what
+/// their products are made of.
+Needs needsOf(const BallSet& atoms, const SurfaceOptions& options);
 
 /// Checks that a way gives all of what the options ask for.
 /// @throws Error(ErrorKind::Usage) that names the first thing that it does not

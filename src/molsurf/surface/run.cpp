@@ -73,6 +73,7 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
         result.report.warnings.push_back(text);
     result.report.voxel = options.voxel;
     makeProducts(atoms, options, progress, result);
+    if (!needsOf(atoms, options).levelSet) result.surface.reset();
     for (const auto& grid : result.grids()) grid->setCreator("vdb_molsurf " MOLSURF_VERSION);
     return result;
 }

@@ -228,7 +228,9 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     const Placement::Unit& unit = *placement.unit;
     Scope scope;
     scope.isUnit = true;
-    SurfaceRun run(atoms, {options, options}, scope, progress);
+    KernelProducts products = options;
+    products.needs = needsOf(atoms, options);
+    SurfaceRun run(atoms, {options, products}, scope, progress);
     run.toMesh();
 
     Stopwatch watch(run.result().report);
@@ -258,7 +260,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
     surface.closed = topology.closed;
     surface.manifold = topology.oriented;
     surface.maxResidual = stats.maxResidual;
-    describeGradients(run.countGradients(slopes), slopes.size(), surface);
+    run.describeSlopes(slopes);
 
     run.curvatures();
     run.describeCurvature();

@@ -10,6 +10,7 @@
 #include "molsurf/show/color/curvature_colors.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/label_surface.h"
+#include "molsurf/surface/product_table.h"
 
 #include <algorithm>
 #include <utility>
@@ -37,6 +38,7 @@ MolecularSurface runAsTheyAre(const BallSet& atoms, const SurfaceOptions& option
 {
     KernelProducts products = options;
     products.ballAreas = options.ballAreas || (atoms.labels && !atoms.labels->groups.empty());
+    products.needs = needsOf(atoms, options);
     SurfaceRun run(atoms, {options, products}, Scope(), progress);
     run.toMeasures();
     std::vector<double> areas; // of the mesh before its triangles are made anew

@@ -55,6 +55,11 @@ MeshPieces piecesOf(const Mesh& mesh)
     return molsurf::piecesOf(mesh, Progress());
 }
 
+bool isClear(const openvdb::FloatGrid& grid)
+{
+    return isClearOfSpecks(fromGrid(grid), Progress());
+}
+
 TEST(Specks, NothingGoesWhereThereIsNone)
 {
     const auto grid = ball();
@@ -63,6 +68,28 @@ TEST(Specks, NothingGoesWhereThereIsNone)
     const std::size_t before = mesh.triangles.size();
     EXPECT_FALSE(dropSpecks(pieces, *grid, mesh).has_value());
     EXPECT_EQ(mesh.triangles.size(), before);
+    EXPECT_TRUE(isClear(*grid));
+}
+
+TEST(Specks, AreSeenWithoutAMesh)
+{
+    for (const int place : {4, 12}) {
+        for (const float depth :
+             {0.01f, 0.29f, 0.31f}) { // of one voxel [Å], below 0.6 of it or not
+            const auto grid = ball();
+            const Coord at(place, 1, 0);
+            const float side = grid->getConstAccessor().getValue(at) < 0.0f ? 1.0f : -1.0f;
+            grid->getAccessor().setValue(at, side * depth);
+            EXPECT_EQ(isClear(*grid), depth > 0.3f) << place << " " << depth;
+            grid->getAccessor().setValue(Coord(place, 2, 0), side * 0.02f); // beside it
+            EXPECT_EQ(isClear(*grid), depth > 0.3f) << place << " " << depth;
+        }
+    }
+    // As deep as a piece has to be, but of a few triangles.
+    const auto grid = ball();
+    for (auto value = grid->beginValueOn(); value; ++value) value.setValue(0.5f);
+    grid->getAccessor().setValue(Coord(4, 1, 0), -0.4f);
+    EXPECT_FALSE(isClear(*grid));
 }
 
 // One voxel of the other sign, inside and outside of a ball, with values that leave a speck.

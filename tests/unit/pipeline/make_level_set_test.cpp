@@ -44,6 +44,56 @@ TEST(MakeLevelSet, IsTheSurfaceOfAllAtoms)
     }
 }
 
+TEST(MakeLevelSet, IsTheSameWithoutWhatNobodyReads)
+{
+    int meshed = 0, alone = 0;
+    for (const unsigned seed : {1u, 2u, 3u, 4u}) {
+        const BallModel model{test::randomBalls(60, 9.0, {3, -2, 5}, seed), {}};
+        for (const SurfaceKind kind : {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
+                                       SurfaceKind::VanDerWaals, SurfaceKind::Gaussian}) {
+            SurfaceSpec spec;
+            spec.kind = kind;
+            spec.voxel = 0.6;
+            KernelProducts few;
+            few.energy = few.closedForm = few.needs.statistics = few.needs.passages = false;
+            const LevelSetSurface all = makeLevelSet(model, spec);
+            const LevelSetSurface quick = makeLevelSet(model, spec, few);
+            EXPECT_TRUE(same(*quick.surface, *all.surface)) << nameOf(kind);
+            EXPECT_EQ(quick.mesh.positions, all.mesh.positions) << nameOf(kind);
+            EXPECT_TRUE(std::isnan(quick.report.surface.kinkShare));
+            EXPECT_TRUE(std::isfinite(all.report.surface.kinkShare));
+
+            few.needs.levelSet = false;
+            const LevelSetSurface ofMesh = makeLevelSet(model, spec, few);
+            EXPECT_EQ(ofMesh.mesh.positions, all.mesh.positions) << nameOf(kind);
+            EXPECT_EQ(ofMesh.mesh.triangles, all.mesh.triangles) << nameOf(kind);
+            EXPECT_EQ(ofMesh.report.activeVoxels, all.report.activeVoxels);
+            EXPECT_EQ(ofMesh.report.gridBytes, all.report.gridBytes);
+
+            few.needs.levelSet = true;
+            few.needs.mesh = false;
+            const LevelSetSurface ofVoxels = makeLevelSet(model, spec, few);
+            EXPECT_TRUE(same(*ofVoxels.surface, *all.surface)) << nameOf(kind);
+            ofVoxels.mesh.triangles.empty() ? ++alone : ++meshed;
+            const bool known = kind == SurfaceKind::VanDerWaals || !ofVoxels.mesh.triangles.empty();
+            EXPECT_EQ(std::isfinite(ofVoxels.report.surface.area), known);
+        }
+    }
+    EXPECT_GT(alone, 8);
+    EXPECT_GT(meshed, 0); // specks
+}
+
+// A voxel of 1.5 Å is too large for some surfaces of these balls, which only a mesh shows.
+TEST(MakeLevelSet, HasAMeshWhereItIsTheCheck)
+{
+    const BallModel model{test::randomBalls(60, 9.0, {3, -2, 5}, 4), {}};
+    SurfaceSpec spec;
+    spec.voxel = 1.5;
+    KernelProducts few;
+    few.needs.mesh = false;
+    EXPECT_FALSE(makeLevelSet(model, spec, few).mesh.triangles.empty());
+}
+
 TEST(MakeLevelSet, RefusesWhatIsNoBall)
 {
     EXPECT_THROW(makeLevelSet({}, {}), Error);

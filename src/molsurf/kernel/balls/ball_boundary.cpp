@@ -268,7 +268,7 @@ void place(const BallParts& parts, std::size_t ball, const std::vector<Counts>& 
 
 /// The boundary of balls in general position.
 /// @throws SpecialPosition if they are not
-BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress)
+BallBoundary boundaryOf(std::vector<PlacedBall> placed, Sampled sampled, const Progress& progress)
 {
     BallBoundary boundary;
     boundary.balls = std::move(placed);
@@ -280,13 +280,14 @@ BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress
     std::vector<std::uint8_t> exposed(balls.size());
     DisjointSets joined(balls.size());
     std::atomic<bool> anyLost{false}; // a ball whose overlaps are not all known
-    const std::size_t rays = raysFor(balls.size());
+    const std::size_t rays = sampled == Sampled::Rays ? raysFor(balls.size()) : 0;
     const auto find = [&](std::size_t n, Scratch& s, BallParts& parts) {
         const auto i = std::int32_t(n);
         const Exposure exposure = finder.find(i, s.finder, s.caps);
         if (exposure.amongMany) anyLost = true;
         if (!exposure.possible) return;
-        const CellVolume cell = sampleCell(s.caps, balls[n].radius, i, rays);
+        const CellVolume cell =
+            rays > 0 ? sampleCell(s.caps, balls[n].radius, i, rays) : CellVolume{};
         parts.cells.volume += cell.volume;
         parts.cells.variance += cell.variance;
         if (s.caps.size() == 0) exposed[n] = 1;
@@ -331,8 +332,8 @@ BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress
         all[c] = BallParts();
     });
     if (!anyLost) {
-        boundary.estimate = {numberComponents(boundary.patches, joined), cells.volume,
-                             std::sqrt(cells.variance)};
+        const std::size_t components = numberComponents(boundary.patches, joined);
+        if (rays > 0) boundary.estimate = {components, cells.volume, std::sqrt(cells.variance)};
     }
     return boundary;
 }
@@ -409,13 +410,14 @@ bool capsOverlap(const BallBoundary& boundary, const Patch& patch, const Cap& a,
     return p.way.dot(q.way) / (lengthP * lengthQ) > cosineP * cosineQ - sines;
 }
 
-BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress)
+BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress,
+                          Sampled sampled)
 {
     // The chance that balls need another try is that of rounding in quadruple precision.
     constexpr std::uint64_t tries = 4;
     for (std::uint64_t salt = 0; salt < tries; ++salt) {
         try {
-            BallBoundary boundary = boundaryOf(placedBalls(balls, probe, salt), progress);
+            BallBoundary boundary = boundaryOf(placedBalls(balls, probe, salt), sampled, progress);
             if (cornersFit(boundary.arcs)) return boundary;
         } catch (const SpecialPosition&) {
         }

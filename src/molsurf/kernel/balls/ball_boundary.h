@@ -112,6 +112,9 @@ struct BallBoundary {
     std::optional<UnionEstimate> estimate; ///< none where very many balls are near each other
 };
 
+/// Whether BallBoundary::estimate, which checkBoundary() reads, is sampled by rays.
+enum class Sampled { Rays, Nothing };
+
 /// Finds the boundary of the union of the balls of radius r_i + probe. Balls within another one,
 /// and all but the first of equal ones, have no part in it.
 ///
@@ -123,7 +126,8 @@ struct BallBoundary {
 /// @param[in] balls  every coordinate within 1e6 Å, radii > 0, both finite
 /// @param[in] probe  added to every radius [Å]
 /// @throws Error(ErrorKind::Check) if the parts do not fit together
-BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress);
+BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress,
+                          Sampled sampled = Sampled::Rays);
 
 /// Whether another ball covers the point of a sphere in a direction, with the rounding of floats.
 inline bool isCovered(const BallBoundary& boundary, const Patch& patch,

@@ -222,20 +222,34 @@ RestLevel levelAtRest(const PsiJet& psi, double least, const Weights& weights)
     return out;
 }
 
+namespace
+{
+
+/// Of how many leaves one is looked at. Powers of two: a brick, which has fewer leaves, looks at
+/// those of the whole among others.
+std::size_t sampleOfRest(std::size_t leaves)
+{
+    constexpr std::size_t few = 64, most = 16;
+    std::size_t every = 1;
+    while (every < most && leaves >= few * every) every *= 2;
+    return every;
+}
+
+} // namespace
+
 Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, const GaussianSum& sum,
                          const Weights& weights, const Region& region, const Progress& progress)
 {
-    constexpr std::size_t few = 4096, every = 16; // leaves
     const LeafTable& table = psi.table;
     const float h = float(psi.voxelSize), inverse = 1.0f / h;
-    const bool all = table.size() <= few;
+    const std::size_t every = sampleOfRest(table.size());
     return parallelSum<Displacements>(table.size(), progress, [&](std::size_t n) {
         Displacements ways;
         const openvdb::Coord origin = table.origin(n);
         // By its place, so that a brick looks at the leaves of the whole.
         const std::size_t place =
             std::size_t(std::abs((origin.x() + origin.y() * 5 + origin.z() * 11) / leafDim));
-        if ((!all && place % every != 0) || !region.owned.isInside(origin)) return ways;
+        if (place % every != 0 || !region.owned.isInside(origin)) return ways;
         LeafBlock<float, 2> v, phi;
         v.gather(table, rest.levels, n);
         phi.gather(psi, n);

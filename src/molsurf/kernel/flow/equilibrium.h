@@ -53,7 +53,8 @@ struct RestingLevels {
 /// differences, and P the second derivative of w along the normal.
 /// @param[in] psi     with the bumps of the sum
 /// @param[in] region  whose own leaves count
-/// @return ways [voxel], at all places of a small molecule; of every sixteenth leaf of a large one
+/// @return ways [voxel] at a sample of leaves: all of fewer than 64, then every second, fourth and
+///         eighth, and every sixteenth of 512 or more
 Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, const GaussianSum& sum,
                          const Weights& weights, const Region& region, const Progress& progress);
 

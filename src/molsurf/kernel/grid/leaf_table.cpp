@@ -313,6 +313,12 @@ LeafTable pruned(const LeafTable& table)
     return filtered(table, [&](std::size_t n) { return table.active(n).any(); });
 }
 
+LeafTable emptied(LeafTable table)
+{
+    for (std::size_t n = 0; n < table.size(); ++n) table.active(n) = LeafMask();
+    return table;
+}
+
 LeafTable joined(const LeafTable& a, const LeafTable& b)
 {
     std::vector<Coord> origins = a.origins();

@@ -158,6 +158,9 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 /// The table without the leaves that have no active voxel.
 LeafTable pruned(const LeafTable& table);
 
+/// The same leaves with no active voxel.
+LeafTable emptied(LeafTable table);
+
 /// The leaves of both tables, with the active voxels of both.
 LeafTable joined(const LeafTable& a, const LeafTable& b);
 

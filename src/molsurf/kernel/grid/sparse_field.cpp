@@ -2,11 +2,11 @@
 #include "molsurf/kernel/grid/sparse_field.h"
 
 #include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/core/simd.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace molsurf
@@ -29,6 +29,23 @@ SparseField clipped(SparseField field, const openvdb::CoordBBox& box, const Prog
     return {std::move(inner), std::move(values), field.voxelSize};
 }
 
+namespace
+{
+
+/// The values of a leaf between -most and most; voxels that are not active have one of these.
+MOLSURF_KERNEL void cutOff(const float* in, const LeafMask& active, float most, float* out)
+{
+    const Ints bits = splat(1) << laneNumbers();
+    for (int row = 0; row < leafSize / floatLanes; ++row) {
+        const Floats value = load(in + floatLanes * row);
+        const Floats far = (value < 0.0f) ? splat(-most) : splat(most);
+        const Ints on = (bits & active.row(row)) != 0;
+        store(out + floatLanes * row, on ? clamped(value, splat(-most), splat(most)) : far);
+    }
+}
+
+} // namespace
+
 openvdb::FloatGrid::Ptr toLevelSet(const SparseField& field, double halfWidth,
                                    const Progress& progress)
 {
@@ -40,12 +57,7 @@ openvdb::FloatGrid::Ptr toLevelSet(const SparseField& field, double halfWidth,
         const LeafMask& active = table.active(n);
         if (!active.any()) return;
         auto* leaf = new Leaf(table.origin(n), background);
-        float* out = leaf->buffer().data();
-        const float* in = field.leaf(n);
-        for (int v = 0; v < leafSize; ++v) {
-            const float value = active.on(v) ? in[v] : std::copysign(background, in[v]);
-            out[v] = std::min(std::max(value, -background), background);
-        }
+        cutOff(field.leaf(n), active, background, leaf->buffer().data());
         Leaf::NodeMaskType mask;
         for (int x = 0; x < 8; ++x) mask.getWord<openvdb::Index64>(x) = active.words[x];
         leaf->setValueMask(mask);

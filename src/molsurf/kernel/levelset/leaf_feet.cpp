@@ -24,11 +24,22 @@ void copyCube(const T* cube, int first, T* leaf)
     }
 }
 
+/// The place of a voxel in a leaf.
+int placeOf(const Coord& voxel)
+{
+    return 64 * voxel.x() + 8 * voxel.y() + voxel.z();
+}
+
 } // namespace
+
+void LeafFeet::setDistances(const VoxelCube& cube, const Coord& corner)
+{
+    copyCube(cube.distance, placeOf(corner), distance);
+}
 
 void LeafFeet::set(const VoxelCube& cube, const Coord& corner)
 {
-    const int first = 64 * corner.x() + 8 * corner.y() + corner.z();
+    const int first = placeOf(corner);
     copyCube(cube.distance, first, distance);
     copyCube(cube.part, first, part);
     for (int a = 0; a < 3; ++a) copyCube(cube.normal[a], first, normal[a]);

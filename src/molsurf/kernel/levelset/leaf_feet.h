@@ -30,6 +30,9 @@ struct LeafFeet {
     /// @param[in] corner  its first voxel in the leaf
     void set(const VoxelCube& cube, const openvdb::Coord& corner);
 
+    /// Takes over its distances alone, which cutOff() reads.
+    void setDistances(const VoxelCube& cube, const openvdb::Coord& corner);
+
     /// Makes the normals unit vectors, and the padding nothing, when all cubes are set.
     void finish();
 

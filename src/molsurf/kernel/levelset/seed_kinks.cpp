@@ -32,14 +32,13 @@ MOLSURF_KERNEL void turning(const Normals& normals, int stride, LeafMask& mask)
 {
     constexpr float cosine = 1.0f - 0.5f * kinkSpread * kinkSpread;
     const float *nx = normals.n[0], *ny = normals.n[1], *nz = normals.n[2];
+    const Ints bit = splat(1) << laneNumbers();
     for (int row = 0; row < 64; ++row) {
-        const int at = row / 8 * Normals::strides[0] + row % 8 * Normals::strides[1];
-        int bits = 0;
-        for (int i = at; i < at + 8; ++i) {
-            const int j = i + stride;
-            bits |= int(nx[i] * nx[j] + ny[i] * ny[j] + nz[i] * nz[j] < cosine) << (i - at);
-        }
-        mask.words[row >> 3] |= std::uint64_t(bits) << (8 * (row & 7));
+        const int i = row / 8 * Normals::strides[0] + row % 8 * Normals::strides[1];
+        const int j = i + stride;
+        const Floats along =
+            load(nx + i) * load(nx + j) + load(ny + i) * load(ny + j) + load(nz + i) * load(nz + j);
+        mask.words[row >> 3] |= std::uint64_t(bitsOf((along < cosine) & bit)) << (8 * (row & 7));
     }
 }
 

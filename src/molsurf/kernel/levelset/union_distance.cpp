@@ -176,7 +176,9 @@ public:
     }
 
     /// @param[out] phi    of the leaf, cut off at the limits of the band [Å]
-    /// @param[out] part   index of the nearest part: patches, then arcs, then corners
+    /// @param[out] part   index of the nearest part: patches, then arcs, then corners; null:
+    /// neither
+    ///                    parts nor kinks are wanted
     /// @param[out] kinks  voxels with a kink between them and the next of the leaf along an axis
     /// @return the voxels within the band
     LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part,
@@ -185,6 +187,7 @@ public:
         const double half = 0.5 * (leafDim - 1) * voxel_;
         tables_.gather(origin.asVec3d() * voxel_ + Vec3d(half), half, outside_ + voxel_,
                        near.parts);
+        LeafFeet& feet = near.feet;
         for (int b = 0; b < 8; ++b) {
             constexpr int edge = VoxelCube::edge;
             const Coord corner(edge * (b >> 2), edge * (b >> 1 & 1), edge * (b & 1));
@@ -192,12 +195,12 @@ public:
             cube.voxel = float(voxel_);
             cube.first = (Vec3f(corner.asVec3s()) - Vec3f(0.5f * (leafDim - 1))) * cube.voxel;
             evaluate(cube, near);
-            near.feet.set(cube, corner);
+            part ? feet.set(cube, corner) : feet.setDistances(cube, corner);
         }
-        LeafFeet& feet = near.feet;
+        const LeafMask active = feet.cutOff(float(inside_), float(outside_), phi);
+        if (!part) return active;
         feet.finish();
         std::copy_n(feet.part, leafSize, part);
-        const LeafMask active = feet.cutOff(float(inside_), float(outside_), phi);
         kinks = kinksWithin(origin, feet, active);
         return active;
     }
@@ -235,7 +238,7 @@ private:
 };
 
 DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
-                    const Progress& progress, const openvdb::CoordBBox& box)
+                    const Progress& progress, const openvdb::CoordBBox& box, Kinks wanted)
 {
     DistanceBand band;
     band.phi.voxelSize = voxelSize;
@@ -245,14 +248,16 @@ DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
     LeafTable& table = band.phi.table;
     table = LeafTable(evaluator.leaves(box, progress));
     band.phi.values = LeafField(table.size());
-    LeafArray<std::int32_t> part(table.size());
+    const bool all = wanted == Kinks::Found;
+    LeafArray<std::int32_t> part(all ? table.size() : 0);
     tbb::enumerable_thread_specific<Near> scratch;
     std::vector<LeafMask> kinks(table.size());
     parallelFor(table.size(), progress, [&](std::size_t n) {
         table.active(n) = evaluator.evaluate(table.origin(n), scratch.local(), band.phi.leaf(n),
-                                             part.leaf(n), kinks[n]);
+                                             all ? part.leaf(n) : nullptr, kinks[n]);
     });
-    band.kinks = table;
+    band.kinks = emptied(table);
+    if (!all) return band;
     parallelFor(table.size(), progress, [&](std::size_t n) {
         addKinksBetweenLeaves(evaluator.tables(), table, part, voxelSize, n, kinks[n]);
         band.kinks.active(n) = kinks[n];
@@ -262,15 +267,16 @@ DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
 
 } // namespace
 
-BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress)
+BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress,
+                  Sampled sampled)
 {
-    return {balls, probe, ballBoundary(balls, probe, progress)};
+    return {balls, probe, ballBoundary(balls, probe, progress, sampled)};
 }
 
 DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& width,
-                             const Progress& progress, const openvdb::CoordBBox& box)
+                             const Progress& progress, const openvdb::CoordBBox& box, Kinks kinks)
 {
-    DistanceBand band = bandOf(std::move(set), voxelSize, width, progress, box);
+    DistanceBand band = bandOf(std::move(set), voxelSize, width, progress, box, kinks);
     trimHeap();
     return band;
 }

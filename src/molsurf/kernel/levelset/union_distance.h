@@ -19,9 +19,14 @@ struct BallUnion {
 };
 
 /// Makes the boundary of a union of balls.
-/// @param[in] balls  have to outlive the union
-/// @param[in] probe  [Å], >= 0
-BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress);
+/// @param[in] balls    have to outlive the union
+/// @param[in] probe    [Å], >= 0
+/// @param[in] sampled  as of ballBoundary()
+BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress,
+                  Sampled sampled = Sampled::Rays);
+
+/// Whether DistanceBand::kinks are found; else no voxel has one.
+enum class Kinks { Found, None };
 
 /// Computes the signed distance to the boundary of a union of balls, negative inside, at all voxels
 /// nearer to it than the given widths; exact but for rounding (float, 1e-6 of the size of a leaf).
@@ -37,6 +42,7 @@ BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& 
 /// @param[in] box        a box of whole leaves: no others are looked at
 DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& width,
                              const Progress& progress,
-                             const openvdb::CoordBBox& box = openvdb::CoordBBox::inf());
+                             const openvdb::CoordBBox& box = openvdb::CoordBBox::inf(),
+                             Kinks kinks = Kinks::Found);
 
 } // namespace molsurf

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/kernel/mesh/specks.h"
 
+#include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/core/spherical_area.h"
+#include "molsurf/kernel/grid/leaf_block.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -104,7 +107,80 @@ void fill(const Mesh& mesh, const Piece& piece, openvdb::FloatGrid& surface)
     if (!within) change(nearest);
 }
 
+/// Voxels of a leaf beside S = 0.
+struct ShallowVoxels {
+    std::vector<Coord> peaks; // below a depth, and no face neighbour of their sign is deeper
+    std::size_t inside = 0;   // those with S < 0 within a voxel
+};
+
+ShallowVoxels shallowVoxels(const SparseField& S, std::size_t n, float deep)
+{
+    using Block = LeafBlock<float, 1>;
+    const float voxel = float(S.voxelSize);
+    ShallowVoxels out;
+    const float* own = S.leaf(n);
+    if (!within(own, voxel).any()) return out;
+    Block block;
+    block.gather(S, n);
+    for (int v = 0; v < leafSize; ++v) {
+        if (!(std::abs(own[v]) < voxel)) continue;
+        out.inside += own[v] < 0.0f;
+        if (!(std::abs(own[v]) < deep)) continue;
+        const float* p = block.at(v >> 6, v >> 3 & 7, v & 7);
+        bool deeper = false;
+        for (const int step : {Block::strideX, Block::strideY, Block::strideZ})
+            for (const int next : {-step, step})
+                deeper = deeper ||
+                         ((p[next] < 0.0f) == (p[0] < 0.0f) && std::abs(p[next]) > std::abs(p[0]));
+        if (!deeper) out.peaks.push_back(S.table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7));
+    }
+    return out;
+}
+
+/// Whether the voxels of one sign that are connected with a voxel through faces have one that is
+/// as deep. Of more than some thousand it is not asked.
+bool leadsDeep(const SparseField& S, const Coord& start, float deep)
+{
+    constexpr std::size_t most = 4096; // voxels
+    const auto at = [&](const Coord& ijk) {
+        const std::int32_t n = S.table.find(ijk);
+        return n == noLeaf
+                   ? deep
+                   : S.leaf(std::size_t(n))[openvdb::FloatTree::LeafNodeType::coordToOffset(ijk)];
+    };
+    const bool inside = at(start) < 0.0f;
+    std::set<Coord> seen = {start};
+    std::vector<Coord> found = {start};
+    for (std::size_t i = 0; i < found.size() && found.size() < most; ++i) {
+        for (int k = 0; k < 6; ++k) {
+            Coord next = found[i];
+            next[k / 2] += k % 2 ? 1 : -1;
+            const float value = at(next);
+            if ((value < 0.0f) != inside) continue;
+            if (std::abs(value) >= deep) return true;
+            if (seen.insert(next).second) found.push_back(next);
+        }
+    }
+    return false;
+}
+
 } // namespace
+
+bool isClearOfSpecks(const SparseField& S, const Progress& progress)
+{
+    constexpr std::size_t plenty = 100; // a mesh of a few triangles has fewer voxels inside
+    const float deep = 0.6f * float(S.voxelSize);
+    std::atomic<std::size_t> inside{0};
+    std::atomic<bool> clear{true};
+    parallelFor(S.table.size(), progress, [&](std::size_t n) {
+        if (!clear) return;
+        const ShallowVoxels found = shallowVoxels(S, n, deep);
+        inside += found.inside;
+        for (const Coord& peak : found.peaks)
+            if (clear && !leadsDeep(S, peak, deep)) clear = false;
+    });
+    return clear && inside >= plenty;
+}
 
 std::vector<std::uint32_t> removePieces(const MeshPieces& pieces, const std::vector<char>& gone,
                                         Mesh& mesh)

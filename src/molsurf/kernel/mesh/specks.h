@@ -4,6 +4,7 @@
 /// @file
 /// Removes pieces of a mesh that the voxels cannot hold.
 
+#include "molsurf/kernel/grid/sparse_field.h"
 #include "molsurf/kernel/mesh/measure.h"
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
@@ -28,6 +29,13 @@ constexpr double leastPiece = 0.1;
 /// @return the vertices that stay, as indices of before, ascending; nothing if all do
 std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
                                                      openvdb::FloatGrid& surface, Mesh& mesh);
+
+/// Tells, without a mesh, that dropSpecks() would find nothing to remove, and that the mesh has
+/// more than a few triangles. Every connected set of voxels of one sign then has a voxel that lies
+/// deeper than 0.6 voxels: a ball of that radius, of nine times the volume of `leastPiece`.
+/// @param[in] S  signed distance, on all voxels within two of S = 0
+/// @return false where that cannot be told
+bool isClearOfSpecks(const SparseField& S, const Progress& progress);
 
 /// Removes closed pieces from a mesh, with what its attributes, colours and parts say of them.
 /// @param[in]     pieces  those of the mesh

@@ -117,10 +117,15 @@ void failNothingLeft(const char* stage, SurfaceKind kind)
                                    : " [hint: a smaller `voxel`]"));
 }
 
+bool maybeTooCoarse(const std::vector<Ball>& balls, const SurfaceSpec& spec)
+{
+    // Random molecules with voxels up to 0.7 radii come out whole.
+    return spec.voxel > 0.7 * double(largestRadius(balls));
+}
+
 void failIfTooCoarse(const std::string& what, const std::vector<Ball>& balls,
                      const SurfaceSpec& spec)
 {
-    // Of random molecules those with voxels up to 0.7 radii come out whole.
     const double radius = double(largestRadius(balls));
     if (balls.empty() || spec.voxel <= radius) return;
     constexpr double smallest = 0.05; // voxel that can be asked for [Å]
@@ -184,6 +189,7 @@ KernelProducts measuresAlone()
 {
     KernelProducts products;
     products.energy = false;
+    products.needs.levelSet = products.needs.statistics = products.needs.passages = false;
     return products;
 }
 

@@ -122,6 +122,9 @@ std::vector<Ball> asMeshed(std::vector<Ball> balls, const SurfaceSpec& spec);
 /// @param[in] stage  that found it
 [[noreturn]] void failNothingLeft(const char* stage, SurfaceKind kind);
 
+/// Whether voxels are so large that a surface of balls may not come out whole on them.
+bool maybeTooCoarse(const std::vector<Ball>& balls, const SurfaceSpec& spec);
+
 /// Does nothing if the largest ball is as large as a voxel.
 /// @param[in] what  is wrong with the surface
 /// @throws Error(ErrorKind::Numeric) with that and a voxel that is small enough

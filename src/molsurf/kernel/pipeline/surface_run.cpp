@@ -22,6 +22,7 @@
 #include "molsurf/kernel/pipeline/check_mesh.h"
 #include "molsurf/kernel/pipeline/derived_grids.h"
 #include "molsurf/kernel/pipeline/fill_cavities.h"
+#include "molsurf/kernel/pipeline/pose_error.h"
 #include "molsurf/kernel/pipeline/remesh_run.h"
 #include "molsurf/kernel/spline/curvature.h"
 #include "molsurf/kernel/spline/fit.h"
@@ -68,7 +69,8 @@ void SurfaceRun::density()
     }
     GaussianSum::BumpsFor decided;
     if (auto rule = gapRuleOf(options_)) {
-        rule->countsClosed = model_.decays.empty() && scope_.region.whole();
+        rule->countsClosed =
+            options_.needs.passages && model_.decays.empty() && scope_.region.whole();
         decided = [this, rule](const SparseField& psi) {
             gaps_ = GapReport();
             DecidedGaps gaps;
@@ -182,18 +184,19 @@ bool SurfaceRun::keepsLevelSet() const
 
 DistanceBand SurfaceRun::distanceToBalls()
 {
-    BallUnion set = unionOf(model_.balls, probeOf(options_), progress_);
     const double probe = offsetOf(options_);
+    const bool areas = options_.ballAreas && !options_.fillCavities;
+    const bool measured = scope_.region.whole() && !scope_.isUnit && isMeasured(options_) &&
+                          (areas || probe == 0.0 || options_.closedForm);
+    BallUnion set = unionOf(model_.balls, probeOf(options_), progress_,
+                            measured ? Sampled::Rays : Sampled::Nothing);
     if (probe > 0.0) cuspLength_ = cuspLengthOf(set.boundary, probe);
-    if (scope_.region.whole() && !scope_.isUnit && isMeasured(options_)) {
-        const bool areas = options_.ballAreas && !options_.fillCavities;
-        if (areas || probe == 0.0 || options_.closedForm) {
-            exact_ = measureClosedForm(set.boundary, options_, areas ? model_.balls.size() : 0,
-                                       progress_);
-        }
-    }
+    if (measured)
+        exact_ =
+            measureClosedForm(set.boundary, options_, areas ? model_.balls.size() : 0, progress_);
     return distanceToUnion(std::move(set), options_.voxel, widthsOf(options_), progress_,
-                           scope_.region.grown(scope_.splineHalo));
+                           scope_.region.grown(scope_.splineHalo),
+                           options_.needs.statistics ? Kinks::Found : Kinks::None);
 }
 
 /// The carrier of the interface; frees what later stages do not need.
@@ -236,7 +239,9 @@ DistanceBand SurfaceRun::distanceToInterface()
     const BandWidths widths = widthsOf(options_);
     NearestSeeds near = nearestSeeds(takeCarrier(), widths, -offset,
                                      scope_.region.grown(scope_.ridgeHalo), progress_);
-    SeedKinks kinks = kinksOf(near, progress_);
+    const bool rounds = hasFlow(options_.kind) && ridgeReach(options_.voxel) > 0;
+    SeedKinks kinks = rounds || options_.needs.statistics ? kinksOf(near, progress_)
+                                                          : SeedKinks{emptied(near.domain), {}};
     const std::vector<Decision> walls = decideWallsOf(near, kinks);
     DistanceBand S =
         distancesBy(std::move(near), std::move(kinks.kinks), widths, -offset, progress_);
@@ -314,8 +319,9 @@ void SurfaceRun::levelSet()
     const double width = surfaceWidthVox * S.voxelSize;
     parallelFor(S.table.size(), progress_,
                 [&](std::size_t n) { S.table.active(n) &= within(S.leaf(n), float(width)); });
-    // Four steps of half a voxel: few values are wrong farther from where sheets of S meet.
-    reinitialize(S, width, 4, progress_);
+    // Four steps of half a voxel: few values are wrong farther from where sheets of S meet. The
+    // first one gives voxels beside the surface, which are all that the mesher reads, their values.
+    reinitialize(S, width, options_.needs.levelSet ? 4 : 1, progress_);
     // In the outermost leaf of a brick's S, values may differ from those of the whole surface.
     S = clipped(std::move(S), scope_.region.grown(scope_.splineHalo - 1), progress_);
     if (!scope_.keepsMemory) releasePages(); // grids and meshes have memory of their own
@@ -346,11 +352,21 @@ void SurfaceRun::checkLeft() const
     if (triangles == 0) failNothingLeft("mesh", options_.kind);
 }
 
-void SurfaceRun::toMesh()
+void SurfaceRun::toDistance()
 {
     density();
     flow();
     distance();
+}
+
+void SurfaceRun::toMesh()
+{
+    toDistance();
+    makeMesh();
+}
+
+void SurfaceRun::makeMesh()
+{
     const auto meshed = [&] {
         spline();
         levelSet();
@@ -413,6 +429,14 @@ GradientCounts SurfaceRun::countGradients(const std::vector<float>& slopes)
     return parallelSum<GradientCounts>((vertices + chunk - 1) / chunk, progress_, count);
 }
 
+void SurfaceRun::describeSlopes(const std::vector<float>& slopes)
+{
+    SurfaceReport& surface = result_.report.surface;
+    surface.gradientShare = surface.kinkShare = std::nan("");
+    if (options_.needs.statistics)
+        describeGradients(countGradients(slopes), slopes.size(), surface);
+}
+
 MeshPieces SurfaceRun::dropSpecks()
 {
     MeshPieces pieces = piecesOf(result_.mesh, progress_);
@@ -436,7 +460,7 @@ void SurfaceRun::measure()
     surface.kind = nameOf(options_.kind);
     surface.cuspLength = cuspLength_;
     surface.maxResidual = stats_.maxResidual;
-    describeGradients(countGradients(stats_.slopes), stats_.slopes.size(), surface);
+    describeSlopes(stats_.slopes);
     try {
         checkMesh(result_.mesh, surface, options_.voxel, progress_);
     } catch (const Error& e) {
@@ -447,6 +471,7 @@ void SurfaceRun::measure()
 
 void SurfaceRun::describeCurvature()
 {
+    if (!options_.needs.statistics) return;
     const Mesh& mesh = result_.mesh;
     SurfaceReport& surface = result_.report.surface;
     const std::vector<float> areas = vertexAreas(mesh, progress_);
@@ -520,9 +545,36 @@ void SurfaceRun::remesh()
     remeshSurface(options_, spline_, progress_, mesh, result_.report);
 }
 
+bool SurfaceRun::needsMesh() const
+{
+    const bool shown = options_.needs.mesh || options_.fillCavities || options_.splineLevel > 0 ||
+                       options_.meshEdge > 0.0 || options_.curvatureTotals;
+    return shown || dependsOnPose(options_) || maybeTooCoarse(model_.balls, options_) ||
+           !isClearOfSpecks(S_.phi, progress_);
+}
+
+/// Makes the level set alone, and the spline if a grid is made of it or a passage asks it.
+void SurfaceRun::levelSetAlone()
+{
+    const std::vector<std::string>& names = options_.fields;
+    const bool ofSpline = std::any_of(names.begin(), names.end(), [](const std::string& name) {
+        return name == "spline" || findCurvatureField(name);
+    });
+    if (ofSpline || passages_) spline();
+    levelSet();
+    SurfaceReport& surface = result_.report.surface;
+    surface.kind = nameOf(options_.kind);
+    surface.cuspLength = cuspLength_;
+    surface.piecesKnown = exact_.has_value();
+    surface.area = surface.volume = surface.gradientShare = surface.kinkShare = std::nan("");
+    if (exact_) describePieces(*exact_, options_.fillCavities, surface);
+}
+
 void SurfaceRun::toMeasures()
 {
-    toMesh();
+    toDistance();
+    if (!needsMesh()) return levelSetAlone();
+    makeMesh();
     measure();
     describeCurvature();
     useClosedForm();
@@ -530,6 +582,7 @@ void SurfaceRun::toMeasures()
 
 void SurfaceRun::finishMesh()
 {
+    if (result_.mesh.triangles.empty()) return;
     remesh();
     curvatures();
     integrateCurvature();
@@ -541,8 +594,9 @@ openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
     SparseField exact; // by closest points; none: fronts moved, and their level set is the grid
     const bool evolved = hasFlow(options_.kind);
     if (!evolved) {
-        exact = distanceToUnion(unionOf(model_.balls, options_.probe, progress_), options_.voxel,
-                                {width, width}, progress_, scope_.region.owned)
+        exact = distanceToUnion(unionOf(model_.balls, options_.probe, progress_, Sampled::Nothing),
+                                options_.voxel, {width, width}, progress_, scope_.region.owned,
+                                Kinks::None)
                     .phi;
     }
     if (carrier_.table.size() > 0)

@@ -133,7 +133,7 @@ public:
     /// @throws Error(ErrorKind::Check) if they are too far from those of the mesh
     void useClosedForm();
 
-    /// All stages to the measures of a whole molecule.
+    /// All stages to the measures of a whole molecule; to the level set, if nothing needs a mesh.
     void toMeasures();
 
     /// Makes the triangles anew, if the options ask for their size. Measures of the surface stay.
@@ -175,9 +175,16 @@ public:
     /// @param[in] slopes  |grad S| at the first vertices of the mesh, those that are counted
     GradientCounts countGradients(const std::vector<float>& slopes);
 
+    /// Puts their shares into the report, if they are asked for.
+    void describeSlopes(const std::vector<float>& slopes);
+
 private:
     friend SparseField restOnCoarserVoxels(const BallModel&, const SurfaceSpec&, Progress&,
                                            Report&);
+    void toDistance();
+    void makeMesh();
+    bool needsMesh() const;
+    void levelSetAlone();
     void refineCoarseRest();
     void rest();
     void checkLeft() const;

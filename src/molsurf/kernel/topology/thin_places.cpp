@@ -2,6 +2,7 @@
 #include "molsurf/kernel/topology/thin_places.h"
 
 #include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/grid/leaf_block.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +38,40 @@ std::vector<Vec3d> feetOf(const NearestSeeds& near, std::vector<std::int32_t> se
     return out;
 }
 
-/// The seeds of the voxels of a box.
-std::vector<std::int32_t> seedsIn(const NearestSeeds& near, const openvdb::CoordBBox& box)
-{
-    std::vector<std::int32_t> out;
-    for (auto voxel = box.begin(); voxel; ++voxel) {
-        const std::int32_t n = near.domain.find(*voxel);
-        if (n == noLeaf) continue;
-        const auto v = openvdb::FloatTree::LeafNodeType::coordToOffset(*voxel);
-        out.push_back(near.index.leaf(std::size_t(n))[v]);
+/// The seeds of a leaf and of the voxels about it.
+struct SeedsAbout {
+    LeafBlock<std::int32_t, 2> block;
+
+    /// Voxels of leaves that the domain lacks have none.
+    SeedsAbout(const NearestSeeds& near, std::size_t n)
+    {
+        block.gather(near.domain, near.index, n);
+        const auto& leaves = near.domain.neighbours(n);
+        constexpr int begins[] = {-2, 0, leafDim, leafDim + 2}; // by side
+        for (int m = 0; m < 27; ++m) {
+            if (leaves[std::size_t(m)] != noLeaf) continue;
+            const int a = m / 9, b = m / 3 % 3, c = m % 3;
+            for (int x = begins[a]; x < begins[a + 1]; ++x)
+                for (int y = begins[b]; y < begins[b + 1]; ++y)
+                    std::fill_n(block.at(x, y, begins[c]), begins[c + 1] - begins[c], noSeed);
+        }
     }
-    return out;
-}
+
+    /// Those of a cube of voxels.
+    /// @param[in] v           a voxel of the leaf
+    /// @param[in] first,last  from it, along each axis
+    std::vector<std::int32_t> in(int v, int first, int last) const
+    {
+        const int edge = last - first + 1;
+        std::vector<std::int32_t> out;
+        out.reserve(std::size_t(edge * edge * edge));
+        for (int x = (v >> 6) + first; x <= (v >> 6) + last; ++x)
+            for (int y = (v >> 3 & 7) + first; y <= (v >> 3 & 7) + last; ++y)
+                out.insert(out.end(), block.at(x, y, (v & 7) + first),
+                           block.at(x, y, (v & 7) + last) + 1);
+        return out;
+    }
+};
 
 /// Whether the closest points of the corners of a cell lie on one sheet: their normals have a long
 /// mean.
@@ -74,21 +97,22 @@ std::vector<ThinPlace> thinPlacesIn(const NearestSeeds& near, std::size_t n, con
     constexpr float shallower = 1.5f, deeper = 1.3f; // voxels than `depth` that are tried [voxel]
     const Coord& origin = near.domain.origin(n);
     std::vector<ThinPlace> out;
+    std::optional<SeedsAbout> about; // once it is needed
     turns.forEach([&](int v) {
         const Seed& own = near[near.index.leaf(n)[v]];
         const Vec3f offset = near.offset(own, origin, v);
         const float above = offset.length() - float(depth);
         if (offset.dot(own.n) > 0.0f || above < -shallower || above > deeper) return;
         const Coord voxel = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
-        std::vector<std::int32_t> corners = seedsIn(near, {voxel, voxel.offsetBy(1)});
+        if (!about) about.emplace(near, n);
+        std::vector<std::int32_t> corners = about->in(v, 0, 1);
         if (onOneSheet(near, corners)) return;
         const std::size_t known = out.size();
         findThinPlaces(feetOf(near, std::move(corners), 0.0), voxel.asVec3d() + Vec3d(0.5), depth,
                        out);
         if (out.size() == known) return;
-        const std::vector<Vec3d> about =
-            feetOf(near, seedsIn(near, {voxel.offsetBy(-1), voxel.offsetBy(2)}), 0.5);
-        for (std::size_t i = known; i < out.size(); ++i) out[i].near = about;
+        const std::vector<Vec3d> feet = feetOf(near, about->in(v, -1, 2), 0.5);
+        for (std::size_t i = known; i < out.size(); ++i) out[i].near = feet;
     });
     return out;
 }
