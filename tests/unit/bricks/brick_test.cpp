@@ -859,6 +859,8 @@ BallSet describedBalls()
     atoms.resolutions = {{{"A", 6.0}, 120, 0.5}, {{"B/10-20", 9.5}, 80, -0.25}};
     atoms.coloring.range = {{-1.5, 2.5}};
     atoms.coloring.palette = "magma";
+    atoms.coloring.outward = 2.25;
+    atoms.coloring.byResidue = true;
     BallLabels& labels = atoms.labels.emplace();
     labels.chains = {"A", "B-2"};
     labels.groups = {{"one", 150, {}}, {"two", 50, {{1, 2, 3}}}};
@@ -929,6 +931,9 @@ TEST_F(Bricks, AtomsOnDiskAreThoseInMemory)
     EXPECT_EQ(all.resolutions[1].level, -0.25);
     EXPECT_EQ(all.coloring.range, atoms.coloring.range);
     EXPECT_EQ(all.coloring.palette, "magma");
+    EXPECT_EQ(all.coloring.outward, 2.25);
+    EXPECT_TRUE(all.coloring.byResidue);
+    EXPECT_FALSE(all.coloring.flat);
     EXPECT_EQ(all.labels->chains, atoms.labels->chains);
     EXPECT_EQ(all.labels->groups[1].name, "two");
     EXPECT_EQ(all.labels->groups[1].balls, 50u);
@@ -942,6 +947,31 @@ TEST_F(Bricks, AtomsOnDiskAreThoseInMemory)
     const BallSet near = file.within(space);
     EXPECT_LT(near.balls.size(), atoms.balls.size());
     EXPECT_EQ(factsOf(near), factsOf(ballsIn(atoms, space)));
+}
+
+// Two chains, two groups and two rules have the indices 0 and 1; -1 stands for none.
+TEST_F(Bricks, AtomsOfNoChainGroupOrRuleAreRefused)
+{
+    const auto reads = [&](const auto& change) {
+        BallSet atoms = describedBalls();
+        change(atoms);
+        Progress progress;
+        OutputFile out(path("i.atoms"), true);
+        writeAtoms(atoms, {1.5, 2.5, 0.5}, out, progress);
+        out.commit();
+        return AtomsFile(path("i.atoms")).within(everywhere()).balls.size();
+    };
+    for (const std::int32_t good : {-1, 0, 1}) {
+        EXPECT_EQ(reads([&](BallSet& a) { a.labels->chainOf[7] = good; }), 200u);
+        EXPECT_EQ(reads([&](BallSet& a) { a.labels->groupOf[7] = good; }), 200u);
+        EXPECT_EQ(reads([&](BallSet& a) { a.resolutionOf[7] = good; }), 200u);
+    }
+    for (const std::int32_t bad : {-2, 2, 3}) {
+        EXPECT_THROW(reads([&](BallSet& a) { a.labels->chainOf[7] = bad; }), Error) << bad;
+        EXPECT_THROW(reads([&](BallSet& a) { a.labels->groupOf[7] = bad; }), Error) << bad;
+        EXPECT_THROW(reads([&](BallSet& a) { a.resolutionOf[7] = bad; }), Error) << bad;
+    }
+    EXPECT_THROW(reads([](BallSet& a) { a.labels->residueClassOf[7] = ResidueClass(12); }), Error);
 }
 
 TEST_F(Bricks, DamagedAtomsOnDiskAreRefused)
