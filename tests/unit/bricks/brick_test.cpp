@@ -1111,6 +1111,33 @@ TEST_F(Bricks, FoldedAtomsOnDiskAreThoseInMemory)
         some += near.size() < whole.balls.size() ? near.size() : 0;
     }
     EXPECT_GT(some, 100u);
+    for (const Ball& ball : whole.balls) { // some lie at corners of cells that are turned
+        openvdb::BBoxd about(ball.center, ball.center);
+        about.expand(0.01);
+        EXPECT_EQ(file.within(about).balls.size(), 1u) << ball.center;
+    }
+}
+
+// The last cell of a part and the first one of the next are the same place.
+TEST_F(Bricks, PartsOnDiskHaveCellsOfTheirOwn)
+{
+    BallSet atoms;
+    atoms.balls = {{{1.0, 2.0, 3.0}, 1.5, 0}, {{4.0, 5.0, 6.0}, 1.7, 1}};
+    atoms.placement.folded = true;
+    atoms.placement.copies = 2;
+    atoms.placement.begin = {0, 1, 2};
+    Motion along = Motion::identity(), up = Motion::identity();
+    along.translation = {100.0, 0.0, 0.0};
+    up.translation = {0.0, 50.0, 0.0};
+    atoms.placement.instances = {{along, 0, "1"}, {Motion::identity(), 1, "2"}, {up, 1, "3"}};
+    Progress progress;
+    OutputFile out(path("a.atoms"), true);
+    writeAtoms(atoms, {1.7, 1.7, 0.0}, out, progress);
+    out.commit();
+    const std::vector<Ball> whole = {
+        {{101.0, 2.0, 3.0}, 1.5, 0}, {{4.0, 5.0, 6.0}, 1.7, 1}, {{4.0, 55.0, 6.0}, 1.7, 1}};
+    EXPECT_EQ(sortedBalls(AtomsFile(path("a.atoms")).within(everywhere()).balls),
+              sortedBalls(whole));
 }
 
 TEST_F(Bricks, AssembliesWithEqualAtomsAreUnfolded)
@@ -1129,6 +1156,33 @@ TEST_F(Bricks, AssembliesWithEqualAtomsAreUnfolded)
     EXPECT_FALSE(atoms.placement.folded);
     EXPECT_EQ(atoms.balls.size(), ballsOf(equal, false).balls.size());
     EXPECT_EQ(atoms.record.warnings.size(), 1u);
+}
+
+TEST_F(Bricks, AssembliesAreUnfoldedWhereMoreIsAskedFor)
+{
+    const Molecule molecule(FileContent{"a.pdb", assemblyText({0.0, 45.0})});
+    SelectOptions select;
+    select.assembly.name = "1";
+    select.assembly.folded = true;
+    LabelOptions bare;
+    bare.labels = bare.names = false;
+    const auto folds = [&](const SelectOptions& chosen, const LabelOptions& labels) {
+        const BallSet atoms = molecule.balls(chosen, labels);
+        EXPECT_EQ(atoms.balls.size(), atoms.placement.folded ? 300u : 600u);
+        return atoms.placement.folded;
+    };
+    EXPECT_TRUE(folds(select, bare));
+    LabelOptions labelled = bare, named = bare, grouped = bare, valued = bare;
+    labelled.labels = named.names = true;
+    grouped.groupBy = GroupBy{GroupBy::Kind::Copy};
+    valued.valueBy = ValueBy{};
+    for (const LabelOptions& labels : {labelled, named, grouped, valued})
+        EXPECT_FALSE(folds(select, labels));
+    SelectOptions blurred = select, plain = select;
+    blurred.resolutions = {{"", 6.0}};
+    plain.assembly.folded = false;
+    EXPECT_FALSE(folds(blurred, bare));
+    EXPECT_FALSE(folds(plain, bare));
 }
 
 TEST_F(Bricks, HostileCopiesAreRefused)
