@@ -82,6 +82,7 @@ int plan(CommandLine call)
     checkWritable(atomsFile, call.force);
     prepareOutputs(call, {temporaryName(atomsFile)});
     call.labels.names = false; // bricks use none
+    call.atoms.assembly.folded = true;
     Terminal terminal(call.progress);
     Report report;
     PlanManifest manifest;

@@ -200,6 +200,10 @@ struct AssemblyChoice {
     /// whole, and those around it, as Placement::unit says. Not beside `instances` and `copies`.
     bool bySymmetry = false;
     double surroundings = 20.0; ///< how far around a unit the balls lie [Å], see surroundingsOf()
+    /// Whether the balls may be those of each part of the assembly once, as Placement::folded says:
+    /// for planBricks() alone. They are if nothing but places and radii is asked for, and no atom
+    /// lies exactly where another of the same radius lies.
+    bool folded = false;
 
     /// Tells whether motions repeat the balls that are made.
     bool repeats() const { return instances || bySymmetry; }
@@ -318,9 +322,10 @@ struct Instance : Motion {
     std::string name;     ///< of the operator
 };
 
-/// How the balls of a set stand for a whole. There are four ways: the balls of a file, or of all
+/// How the balls of a set stand for a whole. There are five ways: the balls of a file, or of all
 /// copies of an assembly, are the whole themselves; prototypes have a surface each, and instances
-/// repeat it; and rotations repeat a unit, whose neighbours are among the balls.
+/// repeat it; rotations repeat a unit, whose neighbours are among the balls; and instances repeat
+/// the balls of parts, but the surface is of all of them together.
 struct Placement {
     /// A unit of an assembly, of which rotations about a point make the whole: the motions of
     /// `instances`, of which the first is the identity. They are a group.
@@ -342,6 +347,8 @@ struct Placement {
     std::size_t around = 0;             ///< balls around a unit; they come last
     std::vector<std::int32_t> motionOf; ///< of each ball of a unit and around it: the motion that
                                         ///< made it; 0: the unit's
+    bool folded = false; ///< whether the balls are those of parts, and the whole what the instances
+                         ///< make of them, in their order; `copies` counts the parts
 
     /// Tells whether the balls are the whole themselves.
     bool isWhole() const { return instances.empty(); }

@@ -98,6 +98,21 @@ class Bricks(ToolTest):
         self.assertEqual(set(run.values()), {1})
         self.assertTrue(all((b, a) in run for a, b in run), "every edge is run through both ways")
 
+    def test_assemblies_stay_folded(self):
+        """Without labels a plan has each atom once, and its bricks are those of all atoms."""
+        plan = self.plan(3)
+        size = (self.folder / "plan.atoms").stat().st_size
+        self.bricks(plan)
+        self.run_tool("bricks", "merge", "plan.json", "-o", "m.vdb", "-o", "m.ply")
+        self.run_tool("dimer.cif.gz", "--assembly", "1", *FAST, *STEPS, "-o", "w.vdb", "-o", "w.ply")
+        whole, merged = (sorted(read_ply((self.folder / name).read_bytes())[1]) for name in ("w.ply", "m.ply"))
+        self.assertEqual(merged, whole, "the same vertices, bit by bit")
+        labelled = self.plan(3, "--force", "--color", "element")
+        self.assertEqual(plan["atoms"], labelled["atoms"])
+        for key in ("min", "max", "atoms", "voxels"):
+            self.assertEqual([b[key] for b in plan["bricks"]], [b[key] for b in labelled["bricks"]])
+        self.assertLess(size, 0.6 * (self.folder / "plan.atoms").stat().st_size)
+
     def test_groups_have_their_colours(self):
         words = ("--color", "group", "--group-by", "chain", "--surface", "vdw")
         self.bricks(self.plan(2, *words))
@@ -299,12 +314,12 @@ class Memory(ToolTest):
         self.assertEqual(self.names(), [])
 
     def test_what_reading_takes_is_refused_before(self):
-        """The text and the atoms of an assembly, by plan as by a build."""
+        """The text and the atoms of an assembly, by plan as by a build; a plan without labels does not unfold them."""
         (self.folder / "many.xyzr").write_text("".join(f"{n % 400} {n // 400} {n % 7} 1.7\n" for n in range(100000)))
         for words in (["many.xyzr"], ["bricks", "plan", "many.xyzr"]):
             self.check(1, *words, "--memory", "26M", "-o", "a.json", says="many.xyzr: reading it takes about")
-            self.check(1, *words[:-1], DATA / "1a8o.cif.gz", "--assembly", 1, "--memory", "15M", "-o", "a.json",
-                       says=("its atoms take about", "[hint: --memory"))
+            self.check(1, *words[:-1], DATA / "1a8o.cif.gz", "--assembly", 1, "--color", "element", "--memory", "15M",
+                       "-o", "a.json", says=("its atoms take about", "[hint: --memory"))
         self.assertEqual(self.names(), ["many.xyzr"])
 
     def test_in_bricks(self):

@@ -7,6 +7,7 @@
 #include "molsurf/kernel/grid/leaf_mask.h"
 #include "molsurf/kernel/pipeline/influence.h"
 #include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/selection/subset.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/pockets.h"
 #include "molsurf/surface/product_table.h"
@@ -71,10 +72,11 @@ constexpr double secondsPerMeasured = 2e-8; // voxel
 /// surface has less area than a ball of its volume.
 double areaOf(const BallSet& atoms, const SurfaceSpec& spec)
 {
-    const double grown = probeOf(spec), spheres = sampledArea(atoms.balls, grown);
+    const double grown = probeOf(spec), spheres = sampledArea(repeatedBalls(atoms), grown);
     if (isUnion(spec.kind)) return offsetOf(spec) > 0.0 ? excludedArea * spheres : spheres;
     const double tolerance = Influence(atoms, spec).extent().maxTolerance;
-    const double ofBall = std::cbrt(36.0 * M_PI * std::pow(sampledVolume(atoms.balls, grown), 2));
+    const double ofBall =
+        std::cbrt(36.0 * M_PI * std::pow(sampledVolume(repeatedBalls(atoms), grown), 2));
     return std::max(excludedArea * spheres / (1.0 + lessPerTolerance * tolerance), ofBall);
 }
 
@@ -147,13 +149,14 @@ SurfaceSize sizeOf(const BallSet& atoms, const SurfaceOptions& options)
 {
     SurfaceSize size;
     const double h = options.voxel;
-    size.balls = double(atoms.balls.size());
+    size.balls = double(repeatedBalls(atoms).size());
     size.area = areaOf(atoms, options);
     if (!options.grid) return size;
     // The band is so wide on either side, and lies so far from the balls at most.
     const double width = surfaceWidthVox * h;
     const double ofArea = 2.0 * width * size.area / (h * h * h);
-    const double room = sampledVolume(atoms.balls, growthOf(options) + width) / (h * h * h);
+    const double room =
+        sampledVolume(repeatedBalls(atoms), growthOf(options) + width) / (h * h * h);
     constexpr double sharp = 4.0; // how fast sheets of a band come to overlap
     if (room > 0.0)
         size.voxels = ofArea / std::pow(1.0 + std::pow(ofArea / room, sharp), 1.0 / sharp);

@@ -59,8 +59,25 @@ TEST(SampledUnion, HasTheLargeBall)
 
 TEST(SampledUnion, OfNothingIsNothing)
 {
-    EXPECT_EQ(sampledArea({}, 1.0), 0.0);
-    EXPECT_EQ(sampledVolume({}, 1.0), 0.0);
+    const std::vector<Ball> none;
+    EXPECT_EQ(sampledArea(none, 1.0), 0.0);
+    EXPECT_EQ(sampledVolume(none, 1.0), 0.0);
+}
+
+// The same bits: a plan of an assembly that is not unfolded is that of all its balls.
+TEST(SampledUnion, RepeatedBallsAreThoseThatMotionsMakeOfThem)
+{
+    const std::vector<Ball> balls = {
+        {{0.0, 0.0, 0.0}, 1.5, 0}, {{1.7, 0.3, 0.2}, 1.2, 1}, {{9.0, 0.0, 0.0}, 2.5, 2}};
+    const double c = std::cos(0.3), s = std::sin(0.3);
+    const Motion turn{{{{c, -s, 0.0}, {s, c, 0.0}, {0.0, 0.0, 1.0}}}, {3.0, 1.0, -2.0}};
+    const RepeatedBalls whole(balls, {{Motion::identity(), 0, 2}, {turn, 0, 2}, {turn, 2, 3}});
+    const std::vector<Ball> all = whole.unfolded();
+    ASSERT_EQ(all.size(), 5u);
+    EXPECT_EQ(all[3].center, turn.placed(balls[1].center));
+    EXPECT_EQ(all[4].radius, 2.5);
+    EXPECT_EQ(sampledArea(whole, 1.4), sampledArea(all, 1.4));
+    EXPECT_EQ(sampledVolume(whole, 1.4), sampledVolume(all, 1.4));
 }
 
 } // namespace molsurf

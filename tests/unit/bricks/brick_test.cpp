@@ -25,7 +25,10 @@
 #include <openvdb/tools/SignedFloodFill.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -856,6 +859,8 @@ BallSet describedBalls()
     atoms.resolutions = {{{"A", 6.0}, 120, 0.5}, {{"B/10-20", 9.5}, 80, -0.25}};
     atoms.coloring.range = {{-1.5, 2.5}};
     atoms.coloring.palette = "magma";
+    atoms.coloring.outward = 2.25;
+    atoms.coloring.byResidue = true;
     BallLabels& labels = atoms.labels.emplace();
     labels.chains = {"A", "B-2"};
     labels.groups = {{"one", 150, {}}, {"two", 50, {{1, 2, 3}}}};
@@ -926,6 +931,9 @@ TEST_F(Bricks, AtomsOnDiskAreThoseInMemory)
     EXPECT_EQ(all.resolutions[1].level, -0.25);
     EXPECT_EQ(all.coloring.range, atoms.coloring.range);
     EXPECT_EQ(all.coloring.palette, "magma");
+    EXPECT_EQ(all.coloring.outward, 2.25);
+    EXPECT_TRUE(all.coloring.byResidue);
+    EXPECT_FALSE(all.coloring.flat);
     EXPECT_EQ(all.labels->chains, atoms.labels->chains);
     EXPECT_EQ(all.labels->groups[1].name, "two");
     EXPECT_EQ(all.labels->groups[1].balls, 50u);
@@ -939,6 +947,31 @@ TEST_F(Bricks, AtomsOnDiskAreThoseInMemory)
     const BallSet near = file.within(space);
     EXPECT_LT(near.balls.size(), atoms.balls.size());
     EXPECT_EQ(factsOf(near), factsOf(ballsIn(atoms, space)));
+}
+
+// Two chains, two groups and two rules have the indices 0 and 1; -1 stands for none.
+TEST_F(Bricks, AtomsOfNoChainGroupOrRuleAreRefused)
+{
+    const auto reads = [&](const auto& change) {
+        BallSet atoms = describedBalls();
+        change(atoms);
+        Progress progress;
+        OutputFile out(path("i.atoms"), true);
+        writeAtoms(atoms, {1.5, 2.5, 0.5}, out, progress);
+        out.commit();
+        return AtomsFile(path("i.atoms")).within(everywhere()).balls.size();
+    };
+    for (const std::int32_t good : {-1, 0, 1}) {
+        EXPECT_EQ(reads([&](BallSet& a) { a.labels->chainOf[7] = good; }), 200u);
+        EXPECT_EQ(reads([&](BallSet& a) { a.labels->groupOf[7] = good; }), 200u);
+        EXPECT_EQ(reads([&](BallSet& a) { a.resolutionOf[7] = good; }), 200u);
+    }
+    for (const std::int32_t bad : {-2, 2, 3}) {
+        EXPECT_THROW(reads([&](BallSet& a) { a.labels->chainOf[7] = bad; }), Error) << bad;
+        EXPECT_THROW(reads([&](BallSet& a) { a.labels->groupOf[7] = bad; }), Error) << bad;
+        EXPECT_THROW(reads([&](BallSet& a) { a.resolutionOf[7] = bad; }), Error) << bad;
+    }
+    EXPECT_THROW(reads([](BallSet& a) { a.labels->residueClassOf[7] = ResidueClass(12); }), Error);
 }
 
 TEST_F(Bricks, DamagedAtomsOnDiskAreRefused)
@@ -957,8 +990,8 @@ TEST_F(Bricks, DamagedAtomsOnDiskAreRefused)
     EXPECT_EQ(readsWith(0, 0), 200u);
     const std::size_t indexAt = bytes.size() - index.size();
     for (const std::size_t at :
-         {std::size_t(8), indexAt / 2, indexAt - 1, indexAt + 12, indexAt + 16, bytes.size() - 1,
-          bytes.size() - 9, bytes.size() - 20, bytes.size() - 30})
+         {std::size_t(8), indexAt / 2, indexAt - 1, indexAt, indexAt + 16, indexAt + 20,
+          bytes.size() - 1, bytes.size() - 9, bytes.size() - 20, bytes.size() - 30})
         EXPECT_THROW(readsWith(at, 64), Error) << at;
     bytes.resize(bytes.size() - 5);
     EXPECT_THROW(readsWith(0, 0), Error);
@@ -966,6 +999,230 @@ TEST_F(Bricks, DamagedAtomsOnDiskAreRefused)
     std::ofstream(path("b.atoms"), std::ios::binary) << "";
     EXPECT_THROW(AtomsFile(path("b.atoms")), Error);
     EXPECT_THROW(AtomsFile(path("none.atoms")), Error);
+}
+
+/// The text of a PDB file: 300 atoms of two chains, of which an assembly makes several copies.
+/// @param[in] ofA  translations along x of chain A [Å]; those of chain B are 60 Å and 0 Å
+std::string assemblyText(const std::vector<double>& ofA)
+{
+    std::string text;
+    const auto add = [&](const char* form, auto... values) {
+        char line[100];
+        std::snprintf(line, sizeof line, form, values...);
+        text += line;
+    };
+    const auto part = [&](char name, const std::vector<double>& along) {
+        add("REMARK 350 APPLY THE FOLLOWING TO CHAINS: %c\n", name);
+        for (std::size_t k = 0; k < along.size(); ++k) {
+            const int n = int(k) + 1;
+            // A turn about x for the second, third...
+            const double c = std::cos(double(k)), s = std::sin(double(k));
+            add("REMARK 350   BIOMT1 %3d  1.000000  0.000000  0.000000     %10.5f\n", n, along[k]);
+            add("REMARK 350   BIOMT2 %3d  0.000000 %9.6f %9.6f        3.00000\n", n, c, -s);
+            add("REMARK 350   BIOMT3 %3d  0.000000 %9.6f %9.6f       -2.00000\n", n, s, c);
+        }
+    };
+    text += "REMARK 350 BIOMOLECULE: 1\n";
+    part('A', ofA);
+    part('B', {60.0, 0.0});
+    const std::vector<Ball> balls = chain();
+    for (int i = 0; i < 300; ++i) {
+        const openvdb::Vec3d& x = balls[std::size_t(i)].center;
+        add("ATOM  %5d  %s  ALA %c%4d    %8.3f%8.3f%8.3f  1.00  0.00           %c\n", i + 1,
+            i % 3 ? "CA" : "O ", i < 200 ? 'A' : 'B', i + 1, x.x(), x.y(), x.z(),
+            i % 3 ? 'C' : 'O');
+    }
+    return text + "END\n";
+}
+
+BallSet ballsOf(const std::string& text, bool folded)
+{
+    SelectOptions select;
+    select.assembly.name = "1";
+    select.assembly.folded = folded;
+    LabelOptions labels;
+    labels.labels = labels.names = false;
+    return Molecule(FileContent{"a.pdb", text}).balls(select, labels);
+}
+
+/// Centres, radii and atoms, in an order of their own.
+std::vector<std::array<double, 5>> sortedBalls(const std::vector<Ball>& balls)
+{
+    std::vector<std::array<double, 5>> out;
+    for (const Ball& b : balls)
+        out.push_back({b.center.x(), b.center.y(), b.center.z(), b.radius, double(b.atom)});
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+void expectEqual(const BrickPlan& a, const BrickPlan& b)
+{
+    EXPECT_EQ(a.atoms, b.atoms);
+    EXPECT_EQ(a.anchor, b.anchor);
+    EXPECT_EQ(a.steps, b.steps);
+    EXPECT_EQ(a.maxGrownRadius, b.maxGrownRadius);
+    ASSERT_EQ(a.bricks.size(), b.bricks.size());
+    for (std::size_t k = 0; k < a.bricks.size(); ++k) {
+        EXPECT_EQ(a.bricks[k].box, b.bricks[k].box) << k;
+        EXPECT_EQ(a.bricks[k].atoms, b.bricks[k].atoms) << k;
+        EXPECT_EQ(a.bricks[k].voxels, b.bricks[k].voxels) << k;
+        EXPECT_EQ(a.bricks[k].bytes, b.bricks[k].bytes) << k;
+        EXPECT_EQ(a.bricks[k].seconds, b.bricks[k].seconds) << k;
+    }
+}
+
+TEST_F(Bricks, PlansOfFoldedAssembliesAreThoseOfAllBalls)
+{
+    const std::string text = assemblyText({0.0, 45.0, 90.5});
+    const BallSet folded = ballsOf(text, true), whole = ballsOf(text, false);
+    ASSERT_TRUE(folded.placement.folded);
+    EXPECT_EQ(folded.balls.size(), 300u);
+    ASSERT_EQ(whole.balls.size(), 800u);
+    EXPECT_EQ(repeatedBalls(folded).size(), 800u);
+    Progress progress;
+    for (const SurfaceKind kind : {SurfaceKind::Variational, SurfaceKind::VanDerWaals}) {
+        for (const double voxel : {0.05, 0.4, 1.0}) { // at the first balls have leaves inside
+            SurfaceOptions options = coarse();
+            options.kind = kind;
+            options.voxel = voxel;
+            expectEqual(planBricks(folded, options, {7, 0}, progress),
+                        planBricks(whole, options, {7, 0}, progress));
+        }
+    }
+}
+
+TEST_F(Bricks, FoldedAtomsOnDiskAreThoseInMemory)
+{
+    const std::string text = assemblyText({0.0, 45.0, 90.5});
+    const BallSet whole = ballsOf(text, false);
+    Progress progress;
+    OutputFile out(path("a.atoms"), true);
+    writeAtoms(ballsOf(text, true), {1.7, 1.7, 0.0}, out, progress);
+    out.commit();
+    EXPECT_LT(std::filesystem::file_size(path("a.atoms")), 300 * 72 + 4000);
+    const AtomsFile file(path("a.atoms"));
+    EXPECT_EQ(sortedBalls(file.within(everywhere()).balls), sortedBalls(whole.balls));
+    std::size_t some = 0;
+    for (double x = -60.0; x < 120.0; x += 7.0) {
+        const openvdb::BBoxd space(openvdb::Vec3d(x, -15.0, -20.0),
+                                   openvdb::Vec3d(x + 11.0, 9.0, 8.0));
+        const std::vector<Ball> near = file.within(space).balls;
+        EXPECT_EQ(sortedBalls(near), sortedBalls(ballsIn(whole, space).balls)) << x;
+        some += near.size() < whole.balls.size() ? near.size() : 0;
+    }
+    EXPECT_GT(some, 100u);
+    for (const Ball& ball : whole.balls) { // some lie at corners of cells that are turned
+        openvdb::BBoxd about(ball.center, ball.center);
+        about.expand(0.01);
+        EXPECT_EQ(file.within(about).balls.size(), 1u) << ball.center;
+    }
+}
+
+// The last cell of a part and the first one of the next are the same place.
+TEST_F(Bricks, PartsOnDiskHaveCellsOfTheirOwn)
+{
+    BallSet atoms;
+    atoms.balls = {{{1.0, 2.0, 3.0}, 1.5, 0}, {{4.0, 5.0, 6.0}, 1.7, 1}};
+    atoms.placement.folded = true;
+    atoms.placement.copies = 2;
+    atoms.placement.begin = {0, 1, 2};
+    Motion along = Motion::identity(), up = Motion::identity();
+    along.translation = {100.0, 0.0, 0.0};
+    up.translation = {0.0, 50.0, 0.0};
+    atoms.placement.instances = {{along, 0, "1"}, {Motion::identity(), 1, "2"}, {up, 1, "3"}};
+    Progress progress;
+    OutputFile out(path("a.atoms"), true);
+    writeAtoms(atoms, {1.7, 1.7, 0.0}, out, progress);
+    out.commit();
+    const std::vector<Ball> whole = {
+        {{101.0, 2.0, 3.0}, 1.5, 0}, {{4.0, 5.0, 6.0}, 1.7, 1}, {{4.0, 55.0, 6.0}, 1.7, 1}};
+    EXPECT_EQ(sortedBalls(AtomsFile(path("a.atoms")).within(everywhere()).balls),
+              sortedBalls(whole));
+}
+
+TEST_F(Bricks, AssembliesWithEqualAtomsAreUnfolded)
+{
+    const std::string text = assemblyText({0.0, 45.0}), twice = assemblyText({0.0});
+    EXPECT_TRUE(ballsOf(text, true).placement.folded);
+    // Chain A a second time where it is.
+    std::string equal = twice;
+    const std::string row = "REMARK 350   BIOMT1   1";
+    const std::size_t begin = equal.find(row), end = equal.find("REMARK 350 APPLY", begin);
+    std::string again = equal.substr(begin, end - begin);
+    for (std::size_t at = 0; (at = again.find("   1  ", at)) != std::string::npos; ++at)
+        again[at + 3] = '2';
+    equal.insert(end, again);
+    const BallSet atoms = ballsOf(equal, true);
+    EXPECT_FALSE(atoms.placement.folded);
+    EXPECT_EQ(atoms.balls.size(), ballsOf(equal, false).balls.size());
+    EXPECT_EQ(atoms.record.warnings.size(), 1u);
+}
+
+TEST_F(Bricks, AssembliesAreUnfoldedWhereMoreIsAskedFor)
+{
+    const Molecule molecule(FileContent{"a.pdb", assemblyText({0.0, 45.0})});
+    SelectOptions select;
+    select.assembly.name = "1";
+    select.assembly.folded = true;
+    LabelOptions bare;
+    bare.labels = bare.names = false;
+    const auto folds = [&](const SelectOptions& chosen, const LabelOptions& labels) {
+        const BallSet atoms = molecule.balls(chosen, labels);
+        EXPECT_EQ(atoms.balls.size(), atoms.placement.folded ? 300u : 600u);
+        return atoms.placement.folded;
+    };
+    EXPECT_TRUE(folds(select, bare));
+    LabelOptions labelled = bare, named = bare, grouped = bare, valued = bare;
+    labelled.labels = named.names = true;
+    grouped.groupBy = GroupBy{GroupBy::Kind::Copy};
+    valued.valueBy = ValueBy{};
+    for (const LabelOptions& labels : {labelled, named, grouped, valued})
+        EXPECT_FALSE(folds(select, labels));
+    SelectOptions blurred = select, plain = select;
+    blurred.resolutions = {{"", 6.0}};
+    plain.assembly.folded = false;
+    EXPECT_FALSE(folds(blurred, bare));
+    EXPECT_FALSE(folds(plain, bare));
+}
+
+TEST_F(Bricks, HostileCopiesAreRefused)
+{
+    Progress progress;
+    OutputFile out(path("a.atoms"), true);
+    writeAtoms(ballsOf(assemblyText({0.0, 45.0}), true), {1.7, 1.7, 0.0}, out, progress);
+    out.commit();
+    const std::string bytes = test::contentOf(path("a.atoms"));
+    const auto readsWith = [&](const std::string& copies) {
+        std::uint64_t header = 0; // its length
+        std::memcpy(&header, bytes.data() + bytes.size() - 16, sizeof header);
+        std::string text = bytes.substr(bytes.size() - 32 - header, header);
+        const std::size_t begin = text.find("[[0,"), end = text.find("]]", begin) + 2;
+        text.replace(begin, end - begin, copies);
+        std::string changed =
+            bytes.substr(0, bytes.size() - 32 - header) + text + bytes.substr(bytes.size() - 32);
+        header = text.size();
+        std::memcpy(changed.data() + changed.size() - 16, &header, sizeof header);
+        std::ofstream(path("b.atoms"), std::ios::binary) << changed;
+        return AtomsFile(path("b.atoms")).within(everywhere()).balls.size();
+    };
+    const std::string good = "[0,1,0,0,0,0,1,0,0,0,0,1,0]", other = "[1,1,0,0,0,0,1,0,0,0,0,1,0]";
+    EXPECT_EQ(readsWith("[" + good + "," + other + "]"), 300u);
+    EXPECT_EQ(readsWith("[" + good + "," + good + "," + other + "]"), 500u);
+    EXPECT_THROW(readsWith("[]"), Error);             // cells of a part that is none
+    EXPECT_THROW(readsWith("[" + good + "]"), Error); // the same
+    for (const char* bad : {"[7,1,0,0,0,0,1,0,0,0,0,1,0]", "[1,1,0,0,0,0,1,0,0,0,0,1]", "[1]", "7",
+                            "[1,1,0,0,2e6,0,1,0,0,0,0,1,0]", "[-1,1,0,0,0,0,1,0,0,0,0,1,0]",
+                            "[1,1,0,0,null,0,1,0,0,0,0,1,0]", "{}"})
+        EXPECT_THROW(readsWith("[" + good + "," + bad + "]"), Error) << bad;
+    std::string old = bytes;
+    old.back() = '1';
+    std::ofstream(path("b.atoms"), std::ios::binary) << old;
+    try {
+        AtomsFile(path("b.atoms"));
+        ADD_FAILURE();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("earlier version"), std::string::npos) << e.what();
+    }
 }
 
 } // namespace

@@ -33,19 +33,19 @@ double fraction(double x)
 /// terms of additive recurrences, which leave no gaps.
 /// @param[in]  power  2: on spheres; 3: within balls
 /// @param[out] whole  sum of R^power over the balls
-std::vector<Point> spread(const std::vector<Ball>& balls, double grown, int power,
-                          std::size_t count, double& whole)
+std::vector<Point> spread(const RepeatedBalls& balls, double grown, int power, std::size_t count,
+                          double& whole)
 {
     const auto weight = [&](const Ball& ball) {
         const double R = ball.radius + grown;
         return power == 2 ? R * R : R * R * R;
     };
     whole = 0.0;
-    for (const Ball& ball : balls) whole += weight(ball);
+    balls.forEach([&](const Ball& ball, std::size_t) { whole += weight(ball); });
     std::vector<Point> out;
     double below = 0.0;
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        below += weight(balls[i]);
+    balls.forEach([&](const Ball& ball, std::size_t i) {
+        below += weight(ball);
         while (out.size() < count && (double(out.size()) + 0.5) / double(count) * whole <= below) {
             const double k = double(out.size()) + 1.0;
             const double z = 1.0 - 2.0 * fraction(k * 0.8191725133961645);
@@ -53,11 +53,11 @@ std::vector<Point> spread(const std::vector<Ball>& balls, double grown, int powe
             const double across = std::sqrt(std::max(0.0, 1.0 - z * z));
             const double depth = power == 2 ? 1.0 : std::cbrt(fraction(k * 0.5497004779019703));
             out.push_back(
-                {balls[i].center + (balls[i].radius + grown) * depth *
-                                       Vec3d(across * std::cos(angle), across * std::sin(angle), z),
+                {ball.center + (ball.radius + grown) * depth *
+                                   Vec3d(across * std::cos(angle), across * std::sin(angle), z),
                  i});
         }
-    }
+    });
     return out;
 }
 
@@ -68,9 +68,9 @@ struct Nearby {
     std::vector<std::size_t> numbers; ///< in the caller's balls
 };
 
-Nearby ballsNear(const std::vector<Ball>& balls, double grown, const std::vector<Point>& points)
+Nearby ballsNear(const RepeatedBalls& balls, double grown, const std::vector<Point>& points)
 {
-    const double edge = std::max(largestRadius(balls) + grown, 1.0);
+    const double edge = std::max(largestRadius(balls.distinct()) + grown, 1.0);
     const auto cellOf = [&](const Vec3d& x) { return Coord::floor(x / edge); };
     std::unordered_set<Coord> cells;
     for (const Point& point : points) {
@@ -79,17 +79,17 @@ Nearby ballsNear(const std::vector<Ball>& balls, double grown, const std::vector
             cells.insert(own.offsetBy(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1));
     }
     Nearby out;
-    for (std::size_t i = 0; i < balls.size(); ++i) {
-        if (cells.count(cellOf(Vec3d(balls[i].center))) == 0) continue;
-        out.balls.push_back(balls[i]);
+    balls.forEach([&](const Ball& ball, std::size_t i) {
+        if (cells.count(cellOf(Vec3d(ball.center))) == 0) return;
+        out.balls.push_back(ball);
         out.numbers.push_back(i);
-    }
+    });
     return out;
 }
 
 /// The mean over points of f(how many balls other than its own hold the point).
 template<typename F>
-double meanOf(const std::vector<Ball>& balls, double grown, const std::vector<Point>& points,
+double meanOf(const RepeatedBalls& balls, double grown, const std::vector<Point>& points,
               const F& f)
 {
     const Nearby near = ballsNear(balls, grown, points);
@@ -109,7 +109,7 @@ double meanOf(const std::vector<Ball>& balls, double grown, const std::vector<Po
 
 } // namespace
 
-double sampledArea(const std::vector<Ball>& balls, double grown)
+double sampledArea(const RepeatedBalls& balls, double grown)
 {
     double whole = 0.0;
     const std::vector<Point> points = spread(balls, grown, 2, 8192, whole);
@@ -117,7 +117,7 @@ double sampledArea(const std::vector<Ball>& balls, double grown)
            meanOf(balls, grown, points, [](std::size_t n) { return n == 0 ? 1.0 : 0.0; });
 }
 
-double sampledVolume(const std::vector<Ball>& balls, double grown)
+double sampledVolume(const RepeatedBalls& balls, double grown)
 {
     double whole = 0.0;
     const std::vector<Point> points = spread(balls, grown, 3, 2048, whole);

@@ -34,6 +34,14 @@ struct LeafMask {
         for (std::uint64_t w : words) n += __builtin_popcountll(w);
         return n;
     }
+    /// How many voxels of the set come before one.
+    int countBelow(int voxel) const
+    {
+        int n = 0;
+        for (int i = 0; i < voxel >> 6; ++i) n += __builtin_popcountll(words[i]);
+        const std::uint64_t before = (std::uint64_t(1) << (voxel & 63)) - 1;
+        return n + __builtin_popcountll(words[voxel >> 6] & before);
+    }
     LeafMask& operator|=(const LeafMask& other)
     {
         for (int i = 0; i < 8; ++i) words[i] |= other.words[i];

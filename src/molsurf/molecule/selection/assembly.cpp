@@ -187,4 +187,23 @@ Placement instanceAssembly(const AssemblyCopies& assembly, std::vector<Ball>& ou
     return placement;
 }
 
+Placement foldAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out)
+{
+    Placement placement;
+    placement.folded = true;
+    placement.begin = {0};
+    std::map<std::size_t, std::size_t> placeOf; // of parts that have copies
+    for (const AssemblyCopy& copy : assembly.copies) {
+        const auto [found, isNew] = placeOf.emplace(copy.part, placeOf.size());
+        if (isNew) {
+            const std::vector<Ball>& part = assembly.parts[copy.part];
+            out.insert(out.end(), part.begin(), part.end());
+            placement.begin.push_back(out.size());
+        }
+        placement.instances.push_back({copy.op, found->second, copy.op.name});
+    }
+    placement.copies = placeOf.size();
+    return placement;
+}
+
 } // namespace molsurf

@@ -64,4 +64,9 @@ Placement expandAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out)
 /// @param[out] out  gets the balls, prototype by prototype, in the coordinates of the file
 Placement instanceAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out);
 
+/// Takes the parts of an assembly that have copies once each, and lists these copies: the same
+/// whole as expandAssembly() makes, in the same order.
+/// @param[out] out  gets the balls, part by part, in the coordinates of the file
+Placement foldAssembly(const AssemblyCopies& assembly, std::vector<Ball>& out);
+
 } // namespace molsurf

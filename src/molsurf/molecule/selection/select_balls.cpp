@@ -309,34 +309,70 @@ void dropDuplicates(const Structure& structure, Filter& filter, BallSet& out)
         describeAtom(structure, atom));
 }
 
+/// Whether two balls of a whole are the same, or in one of 10^6 wholes have the same hash. Tables
+/// of bits leave few balls whose hashes are compared.
+bool hasDuplicates(const RepeatedBalls& balls)
+{
+    constexpr std::size_t bitsPerBall = 8;
+    std::size_t bits = 64;
+    while (bits < bitsPerBall * balls.size()) bits *= 2;
+    std::vector<bool> once(bits), twice(bits);
+    balls.forEach([&](const Ball& ball, std::size_t) {
+        const std::size_t bit = hashOf(ball) & (bits - 1);
+        if (once[bit]) twice[bit] = true;
+        once[bit] = true;
+    });
+    std::vector<std::uint64_t> hashes;
+    balls.forEach([&](const Ball& ball, std::size_t) {
+        const std::uint64_t hash = hashOf(ball);
+        if (twice[hash & (bits - 1)]) hashes.push_back(hash);
+    });
+    tbb::parallel_sort(hashes.begin(), hashes.end());
+    return std::adjacent_find(hashes.begin(), hashes.end()) != hashes.end();
+}
+
+/// The box about the centres.
+openvdb::BBoxd boxOfCentres(const RepeatedBalls& balls)
+{
+    openvdb::Vec3d low(HUGE_VAL), high(-HUGE_VAL);
+    balls.forEach([&](const Ball& ball, std::size_t) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], double(ball.center[axis]));
+            high[axis] = std::max(high[axis], double(ball.center[axis]));
+        }
+    });
+    return {low, high};
+}
+
 /// Refuses a molecule that no grid can hold.
-void checkExtent(const Structure& structure, const std::vector<Ball>& balls)
+void checkExtent(const Structure& structure, const openvdb::BBoxd& centres)
 {
     constexpr double largest = 1e6; // [Å]
     for (int axis = 0; axis < 3; ++axis) {
-        const auto [low, high] =
-            std::minmax_element(balls.begin(), balls.end(), [axis](const Ball& a, const Ball& b) {
-                return a.center[axis] < b.center[axis];
-            });
-        const double extent =
-            static_cast<double>(high->center[axis]) - static_cast<double>(low->center[axis]);
-        if (extent <= largest) continue; // false for NaN
+        const double extent = centres.max()[axis] - centres.min()[axis];
+        if (extent <= largest) continue;
         failAt(structure.source, std::string("the molecule's extent in ") + "xyz"[axis] +
                                      ": expected at most 1e6 Å, got " + std::to_string(extent) +
                                      " Å [an atom or an assembly operator is wrong]");
     }
 }
 
+/// The largest coordinate of a box [Å].
+double farthestOf(const openvdb::BBoxd& centres)
+{
+    double farthest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        farthest =
+            std::max({farthest, std::abs(centres.min()[axis]), std::abs(centres.max()[axis])});
+    return farthest;
+}
+
 /// Vertices of meshes have single precision: far from the origin they are moved by what that leaves
 /// out.
-void warnOfRounding(const std::vector<Ball>& balls, std::vector<std::string>& warnings)
+void warnOfRounding(const openvdb::BBoxd& centres, std::vector<std::string>& warnings)
 {
     constexpr double far = 1e4, digit = 0x1p-23; // [Å], and the last bit of 1 in a float
-    double farthest = 0.0;
-    for (const Ball& ball : balls) {
-        for (int axis = 0; axis < 3; ++axis)
-            farthest = std::max(farthest, std::abs(ball.center[axis]));
-    }
+    const double farthest = farthestOf(centres);
     if (farthest < far) return;
     warnings.push_back(formatted(
         "atoms lie up to %.3g Å from the origin, where vertices are rounded to %.1g Å [hint: "
@@ -479,7 +515,7 @@ void addValues(const Structure& structure, const LabelOptions& options, std::siz
 void addLabels(const Selections& selections, const LabelOptions& options,
                const std::vector<GroupRule>& groups, BallSet& out)
 {
-    const bool several = out.placement.prototypes() > 1;
+    const bool several = out.placement.prototypes() > 1 && !out.placement.folded;
     const bool grouped = !groups.empty() || options.groupBy;
     if (several && grouped)
         throw Error(ErrorKind::Usage,
@@ -537,11 +573,33 @@ void checkFits(const AssemblyCopies& assembly, std::size_t memory)
     needMemory(assembly.title + "its atoms take", perBall * balls, memory);
 }
 
-/// Puts the balls where they belong: as in the file, as a unit of a whole, each prototype of an
-/// assembly once, or all of its copies.
-/// @param[in] balls  in the coordinates of the file
-void placeBalls(const Structure& structure, const SelectOptions& options, std::vector<Ball> balls,
-                BallSet& out)
+/// Whether nothing is asked for but places and radii, so that copies of balls are alike.
+bool wantsPlacesAlone(const SelectOptions& options, const LabelOptions& labels)
+{
+    return options.coarse.empty() && options.resolutions.empty() && !labels.labels &&
+           !labels.names && !labels.charges && labels.groups.empty() && !labels.groupBy &&
+           !labels.valueBy;
+}
+
+/// Puts each part of an assembly once, if its copies have no duplicates and lie where balls may.
+bool fold(const AssemblyCopies& copies, BallSet& out)
+{
+    constexpr double farthest = 1e6; // [Å]
+    for (const AssemblyCopy& copy : copies.copies)
+        if (!std::isfinite(copy.op.translation.lengthSqr())) return false;
+    out.placement = foldAssembly(copies, out.balls);
+    const RepeatedBalls whole = repeatedBalls(out);
+    if (farthestOf(boxOfCentres(whole)) <= farthest && !hasDuplicates(whole)) return true;
+    out.balls.clear();
+    return false;
+}
+
+/// Puts the balls where they belong: as in the file, as a unit of a whole, each prototype or part
+/// of an assembly once, or all of its copies.
+/// @param[in] balls   in the coordinates of the file
+/// @param[in] folded  whether parts may be put once
+void placeBalls(const Structure& structure, const SelectOptions& options, bool folded,
+                std::vector<Ball> balls, BallSet& out)
 {
     const AssemblyChoice& assembly = options.assembly;
     if (!assembly.name) {
@@ -554,7 +612,10 @@ void placeBalls(const Structure& structure, const SelectOptions& options, std::v
                        : assembly.instances ? instanceAssembly
                                             : expandAssembly;
     const AssemblyCopies copies = copiesOf(structure, *assembly.name, assembly.copies, balls, out);
-    if (place == expandAssembly) checkFits(copies, options.limits.memory);
+    if (place == expandAssembly) {
+        if (folded && copies.copies.size() > 1 && fold(copies, out)) return;
+        checkFits(copies, options.limits.memory);
+    }
     out.placement = place(copies, out.balls);
 }
 
@@ -622,7 +683,8 @@ BallSet selectBalls(const Selections& selections, const SelectOptions& options,
     stopIfCancelled(progress);
     const std::vector<GroupRule> groups =
         withCopies(structure, options.assembly.name, labels.groups, balls);
-    placeBalls(structure, options, std::move(balls), out);
+    placeBalls(structure, options, options.assembly.folded && wantsPlacesAlone(options, labels),
+               std::move(balls), out);
     if (out.balls.empty()) {
         const bool anyWater = std::any_of(out.record.drops.begin(), out.record.drops.end(),
                                           [](auto& drop) { return drop.reason == "water"; });
@@ -630,10 +692,10 @@ BallSet selectBalls(const Selections& selections, const SelectOptions& options,
                                      " atoms: dropped " + describeDrops(out.record.drops) +
                                      (anyWater ? " [hint: `waters` keeps it]" : ""));
     }
-    dropDuplicates(structure, filter, out);
-    checkExtent(structure, out.balls);
+    if (!out.placement.folded) dropDuplicates(structure, filter, out); // folded, there are none
+    checkExtent(structure, boxOfCentres(repeatedBalls(out)));
     surround(options.assembly.surroundings, out);
-    warnOfRounding(out.balls, out.record.warnings);
+    warnOfRounding(boxOfCentres(repeatedBalls(out)), out.record.warnings);
     if (!beadAtoms.empty()) countBeads(beadAtoms, out);
     stopIfCancelled(progress);
     applyResolutions(selections, options, out);
@@ -690,13 +752,17 @@ std::string describeSelection(const Structure& structure, const BallSet& selecti
     std::string text = displayName(structure.source) + ": " + structure.format + ", " +
                        some(structure.models.size(), "model") + ", " + some(atoms, "atom");
     if (structure.models.size() > 1) text += " in model " + std::to_string(selection.record.model);
-    text += "; used " + some(selection.own(), selection.record.beads > 0 ? "ball" : "atom");
     const Placement& placement = selection.placement;
+    const std::size_t used = placement.folded ? repeatedBalls(selection).size() : selection.own();
+    text += "; used " + some(used, selection.record.beads > 0 ? "ball" : "atom");
     if (const auto& unit = placement.unit) {
         text += " (" + counted(unit->copies, "copy", "copies") + ") in each of " +
                 std::to_string(placement.order()) + " units that rotations make (" +
                 (unit->pointGroup.empty() ? "no point group" : unit->pointGroup) + "), and " +
                 std::to_string(placement.around) + " around one";
+    } else if (placement.folded) {
+        text += " (" + std::to_string(placement.instances.size()) + " copies of " +
+                std::to_string(atomsOfFile(structure, selection)) + " in the file)";
     } else if (!placement.isWhole()) {
         text += " of " + some(placement.copies, "prototype") + " for " +
                 std::to_string(placement.instances.size()) + " copies";

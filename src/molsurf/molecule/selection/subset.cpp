@@ -78,6 +78,16 @@ WholeBalls ballsOfWhole(const BallSet& atoms)
     return out;
 }
 
+RepeatedBalls repeatedBalls(const BallSet& atoms)
+{
+    if (!atoms.placement.folded) return atoms.balls;
+    std::vector<BallCopy> copies;
+    for (const Instance& copy : atoms.placement.instances)
+        copies.push_back(
+            {copy, atoms.placement.begin[copy.part], atoms.placement.begin[copy.part + 1]});
+    return {atoms.balls, std::move(copies)};
+}
+
 std::vector<double> ballDepths(const BallSet& atoms, double probe, const Progress& progress)
 {
     const auto depthsIn = [&](const std::vector<Ball>& whole, const std::vector<Ball>& some) {

@@ -5,6 +5,7 @@
 /// Some of the balls, with all that is known of them.
 
 #include "molsurf/atoms.h"
+#include "molsurf/kernel/balls/repeated_balls.h"
 #include "molsurf/progress.h"
 
 #include <algorithm>
@@ -47,6 +48,10 @@ struct WholeBalls {
 /// Finds the balls of the whole that a set stands for: these, or its own ones as motions repeat
 /// them.
 WholeBalls ballsOfWhole(const BallSet& atoms);
+
+/// The balls of the whole that a set stands for if it is folded, or its own ones.
+/// @param[in] atoms  have to outlive the result
+RepeatedBalls repeatedBalls(const BallSet& atoms);
 
 /// How deep the centre of each ball lies below the outer solvent-excluded surface of the whole, or
 /// of its prototype [Å].

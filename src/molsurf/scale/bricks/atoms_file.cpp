@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/cancel.h"
+#include "molsurf/kernel/core/memory.h"
 #include "molsurf/kernel/core/transient_error.h"
 #include "molsurf/kernel/pipeline/check_balls.h"
 #include "molsurf/molecule/selection/scalar_map.h"
@@ -19,10 +20,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace molsurf
@@ -38,7 +41,10 @@ using Json = nlohmann::ordered_json;
 
 /// The file: this, records cell by cell, the values of a map, the cells, a header in JSON, and the
 /// lengths of these three.
-constexpr std::array<char, 8> atomsMark = {'M', 'O', 'L', 'A', 'T', 'M', '0', '1'};
+constexpr std::array<char, 8> atomsMark = {'M', 'O', 'L', 'A', 'T', 'M', '0', '2'};
+
+/// The end of files that do not know copies.
+constexpr std::array<char, 8> earlierMark = {'M', 'O', 'L', 'A', 'T', 'M', '0', '1'};
 
 struct Tail {
     std::uint64_t map = 0, cells = 0, header = 0; ///< [byte]
@@ -163,9 +169,10 @@ void markColumns(const Json& names, BallSet& atoms)
 }
 
 /// Adds the ball of a record.
-/// @param[in] like  of markColumns(): columns that are empty there are not filled
+/// @param[in] centre  where a motion brings it
+/// @param[in] like    of markColumns(): columns that are empty there are not filled
 /// @return false if an index is wrong
-bool addBall(const Record& r, const BallSet& like, BallSet& out)
+bool addBall(const Record& r, const Vec3d& centre, const BallSet& like, BallSet& out)
 {
     const auto isIndex = [](std::int32_t i, std::size_t count) {
         return i >= -1 && i < std::int64_t(count);
@@ -173,7 +180,7 @@ bool addBall(const Record& r, const BallSet& like, BallSet& out)
     const auto add = [](const auto& column, auto& to, const auto& value) {
         if (!column.empty()) to.push_back(value);
     };
-    out.balls.push_back({{r.x, r.y, r.z}, r.radius, r.atom});
+    out.balls.push_back({centre, r.radius, r.atom});
     if (!isIndex(r.resolution, out.resolutions.size())) return false;
     add(like.resolutionOf, out.resolutionOf, r.resolution);
     add(like.decays, out.decays, Decay{r.rate, r.level});
@@ -192,6 +199,54 @@ bool addBall(const Record& r, const BallSet& like, BallSet& out)
     return true;
 }
 
+/// The copies of a folded set, one a row: its part, and its motion row by row.
+Json copiesOf(const Placement& placement)
+{
+    Json rows = Json::array();
+    if (!placement.folded) return rows;
+    for (const Instance& copy : placement.instances) {
+        Json row = {copy.part};
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (const double entry : copy.rotation[k]) row.push_back(entry);
+            row.push_back(copy.translation[int(k)]);
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// The motions of each part: where nothing is folded the only part stays where it is.
+/// @throws std::range_error if a copy is none
+std::vector<std::vector<Motion>> parseCopies(const Json& rows)
+{
+    if (rows.empty()) return {{Motion::identity()}};
+    std::vector<std::vector<Motion>> motions;
+    for (const Json& row : rows) {
+        const std::size_t part = jsonNumber<std::uint32_t>(row.at(0));
+        const auto numbers = jsonNumbers<double>(row);
+        if (numbers.size() != 13 || part >= rows.size()) throw std::range_error("copies are none");
+        if (part >= motions.size()) motions.resize(part + 1);
+        Motion& motion = motions[part].emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t j = 0; j < 3; ++j) motion.rotation[k][j] = numbers[1 + 4 * k + j];
+            motion.translation[int(k)] = numbers[4 + 4 * k];
+        }
+    }
+    return motions;
+}
+
+/// A box about a moved one. It is a little wider than that: places are rounded.
+openvdb::BBoxd moved(const openvdb::BBoxd& box, const Motion& motion)
+{
+    constexpr double rounding = 1e-6; // [Å], far above that of places within 1e6 Å
+    const Vec3d middle = motion.placed(box.getCenter()), half = 0.5 * box.extents();
+    Vec3d reach(rounding);
+    for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j)
+            reach[k] += std::abs(motion.rotation[std::size_t(k)][std::size_t(j)]) * half[j];
+    return {middle - reach, middle + reach};
+}
+
 /// The header: values that all balls share.
 std::string headerText(const BallSet& atoms, const GaussianExtent& extent)
 {
@@ -199,6 +254,7 @@ std::string headerText(const BallSet& atoms, const GaussianExtent& extent)
     for (const ResolutionGroup& r : atoms.resolutions)
         resolutions.push_back({r.rule.select, r.rule.resolution, r.balls, r.level});
     Json out = {{"atoms", atoms.balls.size()},
+                {"copies", copiesOf(atoms.placement)},
                 {"columns", columns(atoms)},
                 {"model", atoms.record.model},
                 {"extent", {extent.maxRadius, extent.maxGrownRadius, extent.maxTolerance}},
@@ -293,25 +349,55 @@ BallSet parseHeader(const Json& j)
 
 } // namespace
 
+namespace
+{
+
+/// A ball by its part and the cell of its centre.
+struct PlacedInCell {
+    std::uint32_t part;
+    Coord cell;
+    std::uint32_t ball;
+
+    bool operator<(const PlacedInCell& other) const
+    {
+        return std::tie(part, cell, ball) < std::tie(other.part, other.cell, other.ball);
+    }
+};
+
+/// All balls in the order in which they are written.
+std::vector<PlacedInCell> orderOf(const BallSet& atoms)
+{
+    const Placement& placement = atoms.placement;
+    std::vector<PlacedInCell> order;
+    order.reserve(atoms.balls.size());
+    std::uint32_t part = 0;
+    for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
+        while (placement.folded && i >= placement.begin[part + 1]) ++part;
+        order.push_back({part, cellOf(atoms.balls[i].center), std::uint32_t(i)});
+    }
+    tbb::parallel_sort(order.begin(), order.end());
+    return order;
+}
+
+} // namespace
+
 std::string writeAtoms(const BallSet& atoms, const GaussianExtent& extent, OutputFile& file,
                        const Progress& progress)
 {
-    std::vector<std::pair<Coord, std::uint32_t>> order(atoms.balls.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        order[i] = {cellOf(atoms.balls[i].center), std::uint32_t(i)};
-    tbb::parallel_sort(order.begin(), order.end());
+    const std::vector<PlacedInCell> order = orderOf(atoms);
     stopIfCancelled(progress);
 
     file.write(atomsMark.data(), atomsMark.size());
     std::vector<AtomCell> cells;
     std::vector<Record> records;
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-        const Coord place = order[begin].first;
+        const auto [part, place, first] = order[begin];
         records.clear();
-        for (; end < order.size() && order[end].first == place; ++end)
-            records.push_back(recordOf(atoms, order[end].second));
+        for (; end < order.size() && order[end].cell == place && order[end].part == part; ++end)
+            records.push_back(recordOf(atoms, order[end].ball));
         const std::size_t size = records.size() * sizeof(Record);
-        cells.push_back({{place.x(), place.y(), place.z()},
+        cells.push_back({part,
+                         {place.x(), place.y(), place.z()},
                          std::uint32_t(records.size()),
                          checksumOfBytes(records.data(), size)});
         file.write(records.data(), size);
@@ -362,7 +448,8 @@ void AtomsFile::readIndex(std::uint64_t size)
     Tail tail; // at the end; before it, backward: the header, the cells and the map
     if (size < atomsMark.size() + sizeof tail) refuse("it is too short");
     readAt(file_, path_, size - sizeof tail, &tail, sizeof tail);
-    if (tail.mark != atomsMark) refuse("it does not end with MOLATM01");
+    if (tail.mark == earlierMark) refuse("it is of an earlier version of the program");
+    if (tail.mark != atomsMark) refuse("it does not end with MOLATM02");
     const std::uint64_t most = size - atomsMark.size() - sizeof tail;
     if (tail.map > most || tail.cells > most || tail.header > most ||
         tail.map + tail.cells + tail.header > most || tail.cells % sizeof(AtomCell) != 0)
@@ -379,6 +466,9 @@ void AtomsFile::readIndex(std::uint64_t size)
         atoms != jsonNumber<std::uint64_t>(j.at("atoms")) ||
         atoms * sizeof(Record) != most - tail.map - tail.cells - tail.header)
         refuse("its atoms are not as many as it says");
+    motions_ = parseCopies(j.at("copies"));
+    for (const AtomCell& cell : cells_)
+        if (cell.part >= motions_.size()) refuse("a cell is of no part");
     shared_ = parseHeader(j);
     const Vec3d lengths = vector(j.at("extent"));
     extent_ = {lengths[0], lengths[1], lengths[2]};
@@ -397,26 +487,47 @@ void AtomsFile::readIndex(std::uint64_t size)
 }
 
 void AtomsFile::readCell(const AtomCell& cell, std::uint64_t at, const openvdb::BBoxd& space,
-                         BallSet& out) const
+                         const std::vector<const Motion*>& motions, BallSet& out) const
 {
     std::vector<Record> records(cell.count);
     readAt(file_, path_, at, records.data(), records.size() * sizeof(Record));
     if (checksumOfBytes(records.data(), records.size() * sizeof(Record)) != cell.checksum)
         refuse("its checksum is another");
-    for (const Record& r : records)
-        if (space.isInside(Vec3d(r.x, r.y, r.z)) && !addBall(r, shared_, out))
-            refuse("it has a wrong index");
+    for (const Motion* motion : motions) {
+        for (const Record& r : records) {
+            const Vec3d centre = motion->placed(Vec3d(r.x, r.y, r.z));
+            if (space.isInside(centre) && !addBall(r, centre, shared_, out))
+                refuse("it has a wrong index");
+        }
+    }
+}
+
+std::vector<const Motion*> AtomsFile::motionsInto(const openvdb::BBoxd& space,
+                                                  const AtomCell& cell) const
+{
+    const Vec3d low = cellEdge * Vec3d(cell.place[0], cell.place[1], cell.place[2]);
+    const openvdb::BBoxd box(low, low + Vec3d(cellEdge));
+    std::vector<const Motion*> out;
+    for (const Motion& motion : motions_[cell.part])
+        if (space.hasOverlap(moved(box, motion))) out.push_back(&motion);
+    return out;
 }
 
 BallSet AtomsFile::within(const openvdb::BBoxd& space) const
 {
+    constexpr double bytesPerBall = 100.0; // with its labels
     BallSet out = subset(shared_, {}, Counted::Whole);
-    const openvdb::CoordBBox cells(cellOf(space.min()), cellOf(space.max()));
-    std::uint64_t at = atomsMark.size();
+    std::vector<std::vector<const Motion*>> motions;
+    double most = 0.0;
     for (const AtomCell& cell : cells_) {
-        if (cells.isInside(Coord(cell.place[0], cell.place[1], cell.place[2])))
-            readCell(cell, at, space, out);
-        at += std::uint64_t(cell.count) * sizeof(Record);
+        motions.push_back(motionsInto(space, cell));
+        most += double(cell.count) * double(motions.back().size());
+    }
+    needMemory(path_ + ": its atoms take", bytesPerBall * most, 0);
+    std::uint64_t at = atomsMark.size();
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        if (!motions[c].empty()) readCell(cells_[c], at, space, motions[c], out);
+        at += std::uint64_t(cells_[c].count) * sizeof(Record);
     }
     checkFinite(out.balls);
     return out;

@@ -17,15 +17,16 @@
 namespace molsurf
 {
 
-/// Some atoms of the file: those in one cube of space.
+/// Some atoms of the file: those of a part in one cube of space.
 struct AtomCell {
+    std::uint32_t part;                ///< 0 where no copies repeat parts
     std::array<std::int32_t, 3> place; ///< of the cube, in its edges
     std::uint32_t count;               ///< atoms in it, which follow those of the cell before
     std::uint32_t checksum;            ///< CRC-32 of their records
 };
 
 /// Writes balls with all that bricks use of them: labels, colours, values and resolutions, but no
-/// names.
+/// names. Those of a folded set are written once, with the motions that make the whole.
 /// @param[in] extent  of the Gaussians of all of them
 /// @return the index of the file: the cells and what all balls share. It identifies the content
 std::string writeAtoms(const BallSet& atoms, const GaussianExtent& extent, OutputFile& file,
@@ -43,20 +44,22 @@ public:
 
     const GaussianExtent& extent() const { return extent_; }
 
-    /// The balls in a box, as ballsIn() gives them but for their order.
+    /// The balls in a box, as ballsIn() gives those of the whole but for their order.
     /// @param[in] space  [Å]
-    /// @throws Error(ErrorKind::Input) if the records are damaged
+    /// @throws Error(ErrorKind::Input) if the records are damaged, or more atoms than memory holds
     BallSet within(const openvdb::BBoxd& space) const;
 
 private:
     [[noreturn]] void refuse(const std::string& what) const;
     void readIndex(std::uint64_t size);
+    std::vector<const Motion*> motionsInto(const openvdb::BBoxd& space, const AtomCell& cell) const;
     void readCell(const AtomCell& cell, std::uint64_t at, const openvdb::BBoxd& space,
-                  BallSet& out) const;
+                  const std::vector<const Motion*>& motions, BallSet& out) const;
 
     std::string path_, index_;
     FileDescriptor file_;
     std::vector<AtomCell> cells_;
+    std::vector<std::vector<Motion>> motions_; ///< of each part
     GaussianExtent extent_;
     BallSet shared_; ///< no balls, but one entry of all that each has
 };

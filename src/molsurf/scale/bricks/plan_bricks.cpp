@@ -5,6 +5,7 @@
 #include "molsurf/scale/bricks/brick_file.h"
 
 #include "molsurf/error.h"
+#include "molsurf/kernel/core/cancel.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/pipeline/check_balls.h"
 #include "molsurf/kernel/pipeline/influence.h"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 
 namespace molsurf
 {
@@ -101,12 +103,49 @@ Coord originOf(const Coord& place)
     return {leafDim * place.x(), leafDim * place.y(), leafDim * place.z()};
 }
 
-/// Leaves that may have a part of the surface, with the number of balls whose centres are in each.
+/// Balls by the leaf of their centres, in blocks of 8^3 leaves.
+struct OwnLeaves {
+    LeafTable places;                  ///< a voxel is the place of a leaf, and a leaf a block
+    std::vector<std::size_t> begin;    ///< of each block: its first leaf among all
+    std::vector<std::uint32_t> counts; ///< of balls, one a leaf, in the order of the places
+
+    /// The number of a leaf among all.
+    std::size_t indexOf(std::size_t block, int place) const
+    {
+        return begin[block] + std::size_t(places.active(block).countBelow(place));
+    }
+};
+
+/// Leaves that may have a part of the surface, with the number of balls whose centres are in each:
+/// a list, or of balls that are never in memory together blocks.
 struct Occupancy {
     std::vector<Coord> leaves; ///< places among leaves, ascending
     std::vector<std::uint32_t> atoms;
-    CoordBBox box; ///< of the places
-    Sample sample; ///< that the leaves are
+    LeafTable blocks; ///< of the places, if they are not listed
+    OwnLeaves own;    ///< of the balls, then
+    CoordBBox box;    ///< of the places
+    Sample sample;    ///< that the leaves are
+
+    std::size_t size() const { return leaves.size() + blocks.activeCount(); }
+
+    /// Calls f(place, atoms) for each leaf in a box of places, in no particular order.
+    template<typename F>
+    void forEach(const CoordBBox& in, const F& f) const
+    {
+        for (std::size_t n = 0; n < leaves.size(); ++n)
+            if (in.isInside(leaves[n])) f(leaves[n], atoms[n]);
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            const Coord& origin = blocks.origin(b);
+            if (!in.hasOverlap(CoordBBox::createCube(origin, leafDim))) continue;
+            const std::int32_t with = own.places.find(origin);
+            blocks.active(b).forEach([&](int v) {
+                const Coord place = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
+                if (!in.isInside(place)) return;
+                const bool found = with >= 0 && own.places.active(std::size_t(with)).on(v);
+                f(place, found ? own.counts[own.indexOf(std::size_t(with), v)] : 0);
+            });
+        }
+    }
 };
 
 /// Adds the leaves that may lie between two spheres about a ball's centre: those whose middles are
@@ -175,6 +214,20 @@ double grainOf(const std::vector<Ball>& balls, double voxel, double reach)
     return voxel;
 }
 
+/// The place of a leaf within its block.
+int offsetIn(const Coord& place)
+{
+    return int(openvdb::FloatTree::LeafNodeType::coordToOffset(place));
+}
+
+/// The places within any number of steps along each axis of those of a table.
+LeafTable dilatedBy(LeafTable table, int steps, const Progress& progress)
+{
+    for (; steps > 0; steps -= leafDim)
+        table = dilated(table, std::min(steps, leafDim), Spread::Cube, progress);
+    return table;
+}
+
 /// The places that lie within some steps of others along each axis; far from each other they may
 /// come more than once.
 /// @param[in]  own     places, ascending
@@ -202,11 +255,9 @@ std::vector<Coord> placesNear(const std::vector<Coord>& own, int steps, double m
     }
     // In this table a voxel is the place of a leaf, and a leaf a block of 8^3 places.
     LeafTable table(std::move(blocks));
-    using Leaf = openvdb::FloatTree::LeafNodeType;
     for (const Coord& place : own)
-        table.active(std::size_t(table.find(place))).set(int(Leaf::coordToOffset(place)));
-    for (; steps > 0; steps -= leafDim)
-        table = dilated(table, std::min(steps, leafDim), Spread::Cube, progress);
+        table.active(std::size_t(table.find(place))).set(offsetIn(place));
+    table = dilatedBy(std::move(table), steps, progress);
     for (std::size_t n = 0; n < table.size(); ++n) {
         table.active(n).forEach(
             [&](int v) { near.push_back(table.origin(n).offsetBy(v >> 6, v >> 3 & 7, v & 7)); });
@@ -267,6 +318,66 @@ Occupancy occupancyOf(const std::vector<Ball>& balls, double voxel, double reach
     return out;
 }
 
+/// Balls by leaf, in two passes over all of them.
+OwnLeaves ownLeaves(const RepeatedBalls& balls, double edge)
+{
+    const auto placeOf = [&](const Ball& ball) { return Coord::floor(Vec3d(ball.center) / edge); };
+    std::unordered_set<Coord> blocks;
+    Coord last = Coord::max();
+    balls.forEach([&](const Ball& ball, std::size_t) { // most follow another one of their block
+        const Coord block = placeOf(ball) & ~(leafDim - 1);
+        if (block != last) blocks.insert(block);
+        last = block;
+    });
+    OwnLeaves own{LeafTable({blocks.begin(), blocks.end()}), {}, {}};
+    const auto blockOf = [&](const Coord& place) { return std::size_t(own.places.find(place)); };
+    balls.forEach([&](const Ball& ball, std::size_t) {
+        const Coord place = placeOf(ball);
+        own.places.active(blockOf(place)).set(offsetIn(place));
+    });
+    std::size_t leaves = 0;
+    for (std::size_t b = 0; b < own.places.size(); ++b) {
+        own.begin.push_back(leaves);
+        leaves += std::size_t(own.places.active(b).count());
+    }
+    own.counts.resize(leaves);
+    balls.forEach([&](const Ball& ball, std::size_t) {
+        const Coord place = placeOf(ball);
+        ++own.counts[own.indexOf(blockOf(place), offsetIn(place))];
+    });
+    return own;
+}
+
+/// As occupancyOf(), of balls that are never in memory together and none of which is large.
+Occupancy occupancyInBlocks(const RepeatedBalls& balls, double voxel, double reach,
+                            const Progress& progress)
+{
+    const double edge = leafDim * voxel;
+    const int steps = int(std::ceil((largestRadius(balls.distinct()) + reach) / edge));
+    Occupancy out;
+    out.own = ownLeaves(balls, edge);
+    stopIfCancelled(progress);
+    out.blocks = dilatedBy(out.own.places, steps, progress);
+    for (std::size_t b = 0; b < out.blocks.size(); ++b)
+        out.blocks.active(b).forEach([&](int v) {
+            out.box.expand(out.blocks.origin(b).offsetBy(v >> 6, v >> 3 & 7, v & 7));
+        });
+    out.box.expand(1); // as that of a list
+    return out;
+}
+
+/// The leaves of a whole.
+Occupancy occupancyOf(const BallSet& atoms, double voxel, double reach, double most,
+                      const Progress& progress)
+{
+    const RepeatedBalls whole = repeatedBalls(atoms);
+    if (!atoms.placement.folded) return occupancyOf(atoms.balls, voxel, reach, most, progress);
+    for (const Ball& ball : atoms.balls)
+        if (isLarge(ball, leafDim * voxel))
+            return occupancyOf(whole.unfolded(), voxel, reach, most, progress);
+    return occupancyInBlocks(whole, voxel, reach, progress);
+}
+
 /// How many numbers a voxel has in the grids that go along with the surface.
 int valuesAlong(const SurfaceOptions& options)
 {
@@ -302,9 +413,9 @@ public:
     /// @param[in] most   leaves that are listed: infinite but for estimates of the whole
     Planner(const BallSet& atoms, const SurfaceOptions& options, const Influence& influence,
             double grain, double most, const Progress& progress)
-        : options_(options), influence_(influence), grain_(grain), atoms_(atoms.balls.size()),
-          atomsHeld_(double(atoms_)),
-          occupancy_(occupancyOf(atoms.balls, grain, influence.ofSurface(), most, progress)),
+        : options_(options), influence_(influence), grain_(grain),
+          atoms_(repeatedBalls(atoms).size()), atomsHeld_(double(atoms_)),
+          occupancy_(occupancyOf(atoms, grain, influence.ofSurface(), most, progress)),
           weight_(occupancy_.sample.every),
           excluded_(options.closedForm && isMeasured(options) && offsetOf(options) > 0.0)
     {
@@ -318,7 +429,7 @@ public:
     ///                   which have more of the surface than others
     void expect(double voxels, double power)
     {
-        const double counted = leavesOf(double(occupancy_.leaves.size()));
+        const double counted = leavesOf(double(occupancy_.size()));
         // The distances from a wide probe's surface fill more than the band of the one inside.
         constexpr double least = 0.35;
         if (voxels <= 0.0 || counted <= 0.0) return;
@@ -352,16 +463,14 @@ public:
         const double count = leavesOf(1.0) * share_;
         double own = 0, inSpline = 0, inFlow = 0;
         std::size_t balls = 0;
-        for (std::size_t n = 0; n < occupancy_.leaves.size(); ++n) {
-            const Coord& place = occupancy_.leaves[n];
-            if (!near.isInside(place)) continue;
-            balls += weight_ * occupancy_.atoms[n];
+        occupancy_.forEach(near, [&](const Coord& place, std::uint32_t atoms) {
+            balls += weight_ * atoms;
             inFlow += count * flowed.isInside(place);
             inSpline += count * splined.isInside(place);
-            if (!box.isInside(place)) continue;
-            brick.atoms += weight_ * occupancy_.atoms[n];
+            if (!box.isInside(place)) return;
+            brick.atoms += weight_ * atoms;
             own += count;
-        }
+        });
         // Grids with wider bands may have leaves in a box that holds no other.
         brick.voxels = std::max(std::size_t(voxelsPerLeaf * own), std::size_t(inSpline > 0.0));
         brick.bytes = std::size_t(bytesOf(double(balls), inFlow, inSpline, box == occupancy_.box) +
@@ -377,7 +486,7 @@ public:
     double coarseLeaves() const
     {
         constexpr double share = 0.3; // a fourth for a surface, and its band is wider
-        return share * share_ * leavesOf(double(occupancy_.leaves.size()));
+        return share * share_ * leavesOf(double(occupancy_.size()));
     }
 
     /// Peak memory of the flow of the whole on voxels twice as large [byte].
@@ -396,11 +505,10 @@ public:
         if (length < 2 * smallest) return false;
         std::vector<std::size_t> counts(std::size_t(length), 0);
         std::size_t total = 0;
-        for (const Coord& place : occupancy_.leaves) {
-            if (!box.isInside(place)) continue;
+        occupancy_.forEach(box, [&](const Coord& place, std::uint32_t) {
             ++counts[std::size_t(place[axis] - box.min()[axis])];
             ++total;
-        }
+        });
         int best = smallest;
         double least = 1e300;
         std::size_t below = 0;
@@ -564,7 +672,7 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
     plan.maxRadius = influence.extent().maxRadius;
     plan.maxGrownRadius = influence.extent().maxGrownRadius;
     plan.maxTolerance = influence.extent().maxTolerance;
-    plan.atoms = atoms.balls.size();
+    plan.atoms = repeatedBalls(atoms).size();
     plan.steps = stepsOf(options);
     Planner planner(atoms, options, influence, counting.grain, counting.most, progress);
     planner.expect(counting.voxels, counting.power);
