@@ -259,6 +259,8 @@ class Vdb(ToolTest):
     @needs("openvdb")
     def test_metadata(self):
         self.build("--epsilon", "0.6", *FAST)
+        self.assertNotIn("area", pyopenvdb.readMetadata(self.path))  # no mesh was made
+        self.build("--epsilon", "0.6", *FAST, "-o", "a.ply")
         metadata = pyopenvdb.readMetadata(self.path)
         self.assertEqual(metadata["program"], "vdb_molsurf")
         self.assertEqual(metadata["input"], str(CRAMBIN))

@@ -4,7 +4,7 @@
 
     tests/package/check_symbols.py LIBRARY FOLDER_OF_HEADERS
 
-The face has at most 13 headers, one of them the kernel's, and at most 105 names.
+The face has at most 13 headers, one of them the kernel's, and at most 107 names.
 """
 
 import pathlib
@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 
-MOST_HEADERS, MOST_NAMES = 13, 105
+MOST_HEADERS, MOST_NAMES = 13, 107
 
 
 def declared(text):

@@ -167,7 +167,7 @@ void writeStage(const Writing& w, OutputFile& file)
                             w.request.options.fields},
                            file);
     else if (ofMesh)
-        writeMeshStage(w.request, w.output, w.mesh, file);
+        writeUsdStage(w.request, w.output, w.mesh, file);
     else
         writeVolumeStage(w, file);
 }

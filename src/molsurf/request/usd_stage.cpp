@@ -55,8 +55,7 @@ UsdVolume usdVolume(const Request& request, const Output& output)
     return volume;
 }
 
-void writeMeshStage(const Request& request, const Output& output, const Mesh& mesh,
-                    OutputFile& file)
+void writeUsdStage(const Request& request, const Output& output, const Mesh& mesh, OutputFile& file)
 {
     const std::string frame = isFilm(output) ? output.beside : output.path;
     UsdScene scene{fs::path(output.path).stem().string(),

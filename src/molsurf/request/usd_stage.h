@@ -21,8 +21,8 @@ UsdVolume usdVolume(const Request& request, const Output& output);
 
 /// Writes the .usda of a mesh: of all, of one frame, or the film of all frames in its folder that
 /// are of the same input and options.
-void writeMeshStage(const Request& request, const Output& output, const Mesh& mesh,
-                    OutputFile& file);
+void writeUsdStage(const Request& request, const Output& output, const Mesh& mesh,
+                   OutputFile& file);
 
 /// Whether an output is the .usda of a film of meshes.
 bool isFilm(const Output& output);
