@@ -56,8 +56,7 @@ void writeAll(const CommandLine& call, const BallSet& atoms, MolecularSurface& r
 }
 
 // Adds the report of makeUnitSurface() to that of reading.
-void completeReport(const CommandLine& call, const BallSet& balls, const Report& read,
-                    Report& report)
+void completeReport(const CommandLine& call, const Report& read, Report& report)
 {
     beginReport(call, report);
     report.voxel = call.options.grid ? call.options.voxel : 0.0;
@@ -343,7 +342,7 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     terminal.erase();
     if (!call.quiet)
         for (const std::string& warning : result.report.warnings) printLine("warning: " + warning);
-    completeReport(call, balls, read, result.report);
+    completeReport(call, read, result.report);
     if (extend) extend(result);
     for (const std::string& table : call.areas)
         result.report.tables.push_back(areaTable(table, call, balls, result));

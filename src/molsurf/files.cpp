@@ -247,11 +247,12 @@ void writeRequest(const ShownSurface& shown, Request& request, bool replace)
     std::deque<OutputFile> files;
     std::vector<OutputFile*> all;
     const std::vector<Output> outputs = request.outputs;
-    if (const Output& first = outputs.front(); *first.format->opens) // the file that a script opens
-        request.outputs.push_back(
-            {std::filesystem::path(first.path).replace_extension(first.format->opens).string(),
-             findFormat(first.format->opens)});
     for (const Output& output : outputs) {
+        const char* const opens = output.format->opens; // of a script: the file beside it
+        if (*opens)
+            request.outputs.push_back(
+                {std::filesystem::path(output.path).replace_extension(opens).string(),
+                 findFormat(opens)});
         all.push_back(&files.emplace_back(output.path, replace));
         writeFile(source, output, files.back());
     }

@@ -88,9 +88,9 @@ struct PanelSurface {
     SurfaceOptions options; ///< that decided its surface and its colours
     Mesh mesh;
     ShownMeshes shown;
-    DrawOptions picture;  ///< with the atoms that it shows
-    bool inPlace = false; ///< whether it is of the first structure
-    std::string unrest{}; ///< that it is not at rest; empty: it is
+    DrawOptions picture{}; ///< with the atoms that it shows
+    bool inPlace = false;  ///< whether it is of the first structure
+    std::string unrest{};  ///< that it is not at rest; empty: it is
 };
 
 /// How a surface is made, how files show it, and which files.

@@ -176,6 +176,20 @@ TEST(Files, HaveEveryEnding)
     EXPECT_EQ(contentOf(folder / "a.vdb").find("option.select") == std::string::npos, false);
 }
 
+/// A molecule without pockets has no file of one.
+TEST(Files, AreNoneOfPocketsThatAreNot)
+{
+    SurfaceOptions options;
+    options.kind = SurfaceKind::VanDerWaals;
+    options.pockets = options.pocketBodies = true;
+    const BallSet atoms = readAtoms(FileContent{"a.xyz", "1\n\nC 0 0 0\n"});
+    const MolecularSurface made = makeSurface(atoms, options);
+    ASSERT_TRUE(made.report.pockets && made.report.pockets->list.empty());
+    const Folder folder;
+    writeSurface({{&atoms, &made, &options}}, folder / "a.pockets.ply");
+    EXPECT_TRUE(folder.names().empty());
+}
+
 TEST(Files, SayWhatTheSurfaceWasMadeWithout)
 {
     const Colored made;
