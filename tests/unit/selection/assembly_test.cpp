@@ -197,6 +197,13 @@ TEST(Assembly, RefusesOperatorsThatThrowItApart)
     Structure s = threeChains();
     s.assemblies = {{"1", {{{"A"}, {moved(0), moved(2e6)}}}, ""}};
     EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, assembly("1")); }), "extent in x");
+    for (const auto& operators : {std::vector{moved(std::nan(""))},
+                                  {moved(0), moved(std::nan(""))},
+                                  {moved(std::nan("")), moved(0)}}) {
+        s.assemblies = {{"1", {{{"A"}, operators}}, ""}};
+        EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, assembly("1")); }),
+                   "extent in x: expected at most 1e6 Å, got nan");
+    }
 }
 
 } // namespace

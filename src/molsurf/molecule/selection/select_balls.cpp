@@ -331,14 +331,15 @@ bool hasDuplicates(const RepeatedBalls& balls)
     return std::adjacent_find(hashes.begin(), hashes.end()) != hashes.end();
 }
 
-/// The box about the centres.
+/// The box about the centres; not a number along an axis where one of these is none.
 openvdb::BBoxd boxOfCentres(const RepeatedBalls& balls)
 {
     openvdb::Vec3d low(HUGE_VAL), high(-HUGE_VAL);
     balls.forEach([&](const Ball& ball, std::size_t) {
         for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], double(ball.center[axis]));
-            high[axis] = std::max(high[axis], double(ball.center[axis]));
+            const double x = ball.center[axis];
+            if (x < low[axis] || std::isnan(x)) low[axis] = x;
+            if (x > high[axis] || std::isnan(x)) high[axis] = x;
         }
     });
     return {low, high};
@@ -350,7 +351,7 @@ void checkExtent(const Structure& structure, const openvdb::BBoxd& centres)
     constexpr double largest = 1e6; // [Å]
     for (int axis = 0; axis < 3; ++axis) {
         const double extent = centres.max()[axis] - centres.min()[axis];
-        if (extent <= largest) continue;
+        if (extent <= largest) continue; // false for NaN
         failAt(structure.source, std::string("the molecule's extent in ") + "xyz"[axis] +
                                      ": expected at most 1e6 Å, got " + std::to_string(extent) +
                                      " Å [an atom or an assembly operator is wrong]");
