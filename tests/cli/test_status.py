@@ -35,8 +35,8 @@ class Status(ToolTest):
         """Both what is refused before the work and what fails in it."""
         self.check(LATER, DATA / "4at1.ent.gz", "--voxel", "0.1", "-o", "a.ply", says=["takes about", "of memory"],
                    preexec_fn=address_space(700))
-        self.check(LATER, CRAMBIN, "--voxel", "0.35", "-j", 1, "-o", "a.ply", says="memory",
-                   preexec_fn=address_space(95 + 2 * LIBRARY))
+        self.check(LATER, CRAMBIN, "--voxel", "0.35", "-j", 1, "-o", "a.ply", says="not enough memory",
+                   preexec_fn=address_space(113 + 2 * LIBRARY))
         self.assertEqual(self.names(), [])
 
     @needs("full")
