@@ -598,10 +598,8 @@ using Beside = std::tuple<std::string, std::vector<std::pair<std::string, const 
 void save(MadeSurface& surface, const std::string& path, bool replace, const Words& settings,
           const Beside& beside)
 {
-    constexpr std::string_view contacts = ".contacts.csv";
-    if (path.size() > contacts.size() &&
-        path.compare(path.size() - contacts.size(), contacts.size(), contacts) == 0)
-        needContacts(surface);
+    const std::filesystem::path file = path;
+    if (file.extension() == ".csv" && file.stem().extension() == ".contacts") needContacts(surface);
     nb::gil_scoped_release free;
     const auto& [name, panels, show] = beside;
     std::vector<ShownSurface> shown = {

@@ -35,6 +35,7 @@ using GivenOptions = std::map<std::string, std::vector<std::string>>;
 /// second part is made of them.
 struct CommandLine : Request {
     Verb verb = Build;
+    std::string command;             ///< the command line as typed, quoted for a shell
     std::vector<std::string> inputs; ///< the words that are no options
     GivenOptions given;
 
@@ -74,7 +75,7 @@ struct CommandLine : Request {
     bool progress = true;
     std::string config;
 
-    std::string identity;                   ///< as tools/identity.h has it; empty: not known yet
+    std::string inputSha256, identity;      ///< as tools/identity.h has them; empty: not known yet
     std::size_t brick = 0;                  ///< BricksRun: its number, from 1
     std::shared_ptr<const Anchors> anchors; ///< of the first structure, for `superpose`
     std::vector<std::string> warnings;      ///< one line each

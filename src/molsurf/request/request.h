@@ -96,9 +96,7 @@ struct PanelSurface {
 /// How a surface is made, how files show it, and which files.
 struct Request : Settings, PictureSettings, FileSettings {
     bool knowsAtoms = true;      ///< whether the options of atoms and labels are known
-    std::string command;         ///< the command line as typed, quoted for a shell; empty: none
     std::string input;           ///< the file of the atoms; empty: not known
-    std::string inputSha256;     ///< of its content; empty: not known
     std::string firstName;       ///< of the surface among its panels
     std::vector<Output> outputs; ///< of a batch: extensions in the place of paths
     std::vector<Panel> panels;   ///< of pictures, beside the first one

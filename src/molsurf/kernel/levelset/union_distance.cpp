@@ -177,8 +177,7 @@ public:
 
     /// @param[out] phi    of the leaf, cut off at the limits of the band [Å]
     /// @param[out] part   index of the nearest part: patches, then arcs, then corners; null:
-    /// neither
-    ///                    parts nor kinks are wanted
+    ///                    neither parts nor kinks are wanted
     /// @param[out] kinks  voxels with a kink between them and the next of the leaf along an axis
     /// @return the voxels within the band
     LeafMask evaluate(const Coord& origin, Near& near, float* phi, std::int32_t* part,
