@@ -144,7 +144,7 @@ std::vector<std::string> warningsOf(const CommandLine& call, const Read& a, cons
     std::vector<std::string> idle; // options that only structures need; meshes have voxels, too
     for (const OptionGroup& group : optionTable())
         for (const Option& option : group.options)
-            if (option.stored && (option.verbs & Compare) && call.has(option.name) &&
+            if (option.get && (option.verbs & Compare) && call.has(option.name) &&
                 option.name != std::string("voxel"))
                 idle.push_back(std::string("--") + option.name);
     if (!structures && !idle.empty())

@@ -48,7 +48,7 @@ std::string optionsLine(const CommandLine& call)
         }
     }
     for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->stored && !readsOnce(file.path))
+        if (file.option->get && !readsOnce(file.path))
             line += " (" + file.path + ": " + sha256OfFile(file.path).substr(0, 16) + ")";
     return line;
 }
@@ -84,7 +84,7 @@ std::optional<int> statusOfExisting(CommandLine& call)
     });
     const std::vector<OptionFile> read = filesOf(call.verb, call.given);
     const bool hashed = std::none_of(read.begin(), read.end(), [](const OptionFile& file) {
-        return file.option->stored && readsOnce(file.path);
+        return file.option->get && readsOnce(file.path);
     });
     const std::string input = hashed ? sha256OfInput(call.input, call.atoms.limits.maxInput) : "";
     if (whole && !input.empty() && known->input == input && known->options == identityOf(call))

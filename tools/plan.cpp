@@ -57,7 +57,7 @@ GivenOptions planned(const CommandLine& call)
     GivenOptions options;
     for (const auto& [name, values] : call.given) {
         const Option* option = findOption(BricksPlan, name);
-        if (!option || !option->stored) continue;
+        if (!option || !option->get) continue;
         std::vector<std::string>& kept = options[name]; // of a switch it is empty
         for (const std::string& value : values) {
             const std::size_t begin = option->file ? option->file(value) : std::string::npos;
@@ -75,7 +75,7 @@ int plan(CommandLine call)
 {
     std::vector<std::string> planFiles = {call.input};
     for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->stored) planFiles.push_back(file.path);
+        if (file.option->get) planFiles.push_back(file.path);
     for (const std::string& path : planFiles) failIfStream(path, "a file, which bricks read again");
     const std::string atomsFile = atomsPath(call.outputs[0].path);
     InputFiles(call).refuse(atomsFile);

@@ -14,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -51,8 +52,10 @@ enum class SettingOf {
     Surface   ///< SurfaceOptions
 };
 
-/// A setting. Its name is that of an option of the command line: "fill-cavities".
-struct Setting {
+/// An option that sets something of a `To`. The options of a base are those of what derives from
+/// it, too. Its name is that of the command line: "fill-cavities".
+template<typename To>
+struct OptionRow {
     const char* name;
     SettingType type;
     const char* value;  ///< what stands for its value in a help text; null for a switch
@@ -60,19 +63,37 @@ struct Setting {
                         ///< new line
     std::string preset; ///< the default for people; empty for none
     std::vector<std::string> words = {}; ///< values that are words, or the beginnings of values
+    /// Sets it; several values are for SettingType::Rules alone, and none is for a switch.
+    /// @throws Error(ErrorKind::Usage) for a value that it cannot have
+    std::function<void(To&, const std::vector<std::string>& values)> set = nullptr;
+    /// Its value as metadata of a file; null: it is not stored.
+    std::function<SettingValue(const To&)> get = nullptr;
     double low = std::numeric_limits<double>::quiet_NaN();  ///< least and largest number; not a
     double high = std::numeric_limits<double>::quiet_NaN(); ///< number: see the text
     SettingOf of = SettingOf::Surface;
     std::vector<SurfaceKind> kinds = {}; ///< the surfaces that it changes; empty: all
-    /// Sets it; several values are for SettingType::Rules alone, and none is for a switch.
-    /// @throws Error(ErrorKind::Usage) for a value that it cannot have
-    std::function<void(Settings&, const std::vector<std::string>& values)> set = nullptr;
-    /// Its value as metadata of a file; null: it is not stored.
-    std::function<SettingValue(const Settings&)> get = nullptr;
+    unsigned shownIn = 0; ///< the formats that show it, a set of holds::Content; 0: it is no matter
+                          ///< of formats
     /// Where in a value the path of a file begins that is read; npos: the value names none. Null:
     /// no value does.
     std::function<std::size_t(const std::string& value)> file = nullptr;
+    char letter = 0;    ///< of the command line, 'o'; 0: none
+    unsigned verbs = 0; ///< of the command line that take it
+
+    bool repeats() const { return type == SettingType::Rules; }
+
+    /// The same option of what derives from `To`.
+    template<typename Derived, typename = std::enable_if_t<std::is_base_of_v<To, Derived> &&
+                                                           !std::is_same_v<To, Derived>>>
+    operator OptionRow<Derived>() const
+    {
+        return {name, type, value, text,  preset,  words, set,    get,
+                low,  high, of,    kinds, shownIn, file,  letter, verbs};
+    }
 };
+
+/// An option of atoms, labels, places or surfaces.
+using Setting = OptionRow<Settings>;
 
 /// All of them.
 const std::vector<Setting>& settingTable();

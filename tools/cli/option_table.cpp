@@ -9,10 +9,11 @@
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/molecule/selection/groups.h"
 #include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/request/request_table.h"
 #include "molsurf/request/run_metadata.h"
 #include "molsurf/settings.h"
 #include "molsurf/show/picture/view_file.h"
-#include "molsurf/surface/set_value.h"
+#include "molsurf/surface/option_row.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,108 +38,30 @@ namespace
 
 using Values = std::vector<std::string>;
 
-// Options by the type of their value, which is not stored in files (Option::stored). `of` gives the
-// variable of a call that the option sets: MOLSURF_OF(options.voxel).
-
-openvdb::Metadata::Ptr stored(const std::string& text)
-{
-    return openvdb::StringMetadata(text).copy();
-}
-
-/// The option of a setting of the library.
+/// The option of a request, in its words on the command line.
 /// @throws std::logic_error if there is none of this name
 Option setting(const std::string& name, unsigned verbs)
 {
-    for (const Setting& row : settingTable()) {
-        if (row.name != name) continue;
-        Option o{row.name, 0, row.value, withOptionNames(row.text), row.preset, verbs, row.words};
-        o.repeats = row.type == SettingType::Rules;
-        o.set = row.set;
-        o.file = row.file;
-        if (row.get)
-            o.stored = [&row](const CommandLine& call) { return metadataOf(row.get(call)); };
-        return o;
-    }
-    throw std::logic_error("no setting is named " + name);
+    const OptionRow<Request>* row = findRow(requestTable(), name);
+    if (!row) throw std::logic_error("no setting is named " + name);
+    Option option = *row;
+    option.text = withOptionNames(option.text);
+    option.verbs = verbs;
+    return option;
 }
 
-/// The option of a row of pictures or files, or null.
-template<typename To>
-std::optional<Option> optionOf(const std::vector<SettingRow<To>>& rows, const std::string& name,
-                               unsigned verbs)
+/// The option of some verbs.
+Option of(unsigned verbs, Option option)
 {
-    const SettingRow<To>* row = findRow(rows, name);
-    if (!row) return std::nullopt;
-    Option o{row->name, 0, row->value, withOptionNames(row->text), row->preset, verbs, row->words};
-    o.set = row->set;
-    o.shownIn = row->shownIn;
-    if (row->get) o.stored = [row](const CommandLine& call) { return metadataOf(row->get(call)); };
-    return o;
-}
-
-/// The option of a row of pictures or files.
-/// @throws std::logic_error if there is none of this name
-Option fileOption(const std::string& name, unsigned verbs)
-{
-    if (const auto o = optionOf(pictureSettings(), name, verbs)) return *o;
-    if (const auto o = optionOf(fileSettings(), name, verbs)) return *o;
-    throw std::logic_error("no setting of files is named " + name);
-}
-
-/// A number in a range that the library does not check.
-template<typename Of>
-Option number(const char* name, const char* value, std::string text, std::string preset,
-              unsigned verbs, double low, double high, const char* range, const Of& of)
-{
-    Option o{name, 0, value, std::move(text), std::move(preset), verbs};
-    o.set = numberSetter(name, low, high, range, of);
-    return o;
-}
-
-template<typename Of>
-Option count(const char* name, const char* value, std::string text, std::string preset,
-             unsigned verbs, int low, int high, const Of& of)
-{
-    Option o{name, 0, value, std::move(text), std::move(preset), verbs};
-    o.set = countSetter(name, low, high, of);
-    return o;
-}
-
-/// @param[in] on  what the switch sets
-template<typename Of>
-Option flag(const char* name, std::string text, unsigned verbs, const Of& of, bool on = true)
-{
-    Option o{name, 0, nullptr, std::move(text), "", verbs};
-    o.set = [=](CommandLine& call, const Values&) { of(call) = on; };
-    return o;
-}
-
-template<typename Of>
-Option text(const char* name, const char* value, std::string help, unsigned verbs, const Of& of)
-{
-    Option o{name, 0, value, std::move(help), "", verbs};
-    o.set = [=](CommandLine& call, const Values& v) { of(call) = v.back(); };
-    return o;
-}
-
-/// One of a few values that nameOf() names.
-template<typename Of, typename Enum>
-Option word(const char* name, const char* value, std::string help, unsigned verbs, const Of& of,
-            const std::vector<Enum>& choices)
-{
-    const CommandLine preset;
-    Option o{name, 0, value, std::move(help), nameOf(of(preset)), verbs};
-    for (const Enum choice : choices) o.words.push_back(nameOf(choice));
-    o.set = wordSetter(name, choices, of);
-    return o;
+    option.verbs = verbs;
+    return option;
 }
 
 /// A choice of two words, the second one the default.
 template<typename Of>
-Option either(const char* name, std::string help, const char* on, const char* off, unsigned verbs,
-              const Of& of)
+Option either(const char* name, std::string help, const char* on, const char* off, const Of& of)
 {
-    Option o{name, 0, "WORD", std::move(help), off, verbs, {off, on}};
+    Option o{name, SettingType::Word, "WORD", std::move(help), off, {off, on}};
     o.set = [=, words = o.words](CommandLine& call, const Values& v) {
         const std::string got = lowered(v.back());
         if (got != on && got != off)
@@ -164,44 +87,6 @@ void setView(CommandLine& call, const Values& values)
     call.viewed = view;
 }
 
-/// Option::file of a value that is a path.
-std::size_t wholeValue(const std::string&)
-{
-    return 0;
-}
-
-/// The option of a file that is read, whose path is its value.
-Option ofFile(Option option)
-{
-    option.file = wholeValue;
-    return option;
-}
-
-/// The option of a switch that files have.
-template<typename Of>
-Option kept(const Of& of, Option option)
-{
-    option.stored = [=](const CommandLine& call) { return openvdb::BoolMetadata(of(call)).copy(); };
-    return option;
-}
-
-/// The option of a number that files have.
-template<typename Of>
-Option numberKept(const Of& of, Option option)
-{
-    option.stored = [=](const CommandLine& call) {
-        return openvdb::DoubleMetadata(of(call)).copy();
-    };
-    return option;
-}
-
-/// The option with more than its type says.
-Option with(Option option, const std::function<void(Option&)>& change)
-{
-    change(option);
-    return option;
-}
-
 // Sets of verbs.
 constexpr unsigned surfaces = Build | Batch | BricksPlan;           // they build surfaces
 constexpr unsigned structures = surfaces | Compare;                 // they read structures
@@ -218,79 +103,83 @@ Values formatsOf(unsigned verb)
     return words;
 }
 
-/// The option with the formats that show it.
-Option shownIn(unsigned formats, Option option)
+/// The option --output of some verbs.
+Option outputOption(unsigned verbs, std::string text)
 {
-    option.shownIn = formats;
-    return option;
+    Option o{"output", SettingType::Rules, "FILE", std::move(text), ""};
+    o.letter = 'o';
+    o.set = [](CommandLine& call, const Values& values) {
+        call.paths = values;
+        for (std::string& path : call.paths) // one name for one thing
+            if (path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1")
+                path = "-";
+        call.given["output"] = call.paths;
+    };
+    return of(verbs, o);
+}
+
+/// The option --format of some verbs, with the formats of one of them.
+Option formatOption(Verb verb, unsigned verbs)
+{
+    const Values known = formatsOf(verb);
+    Option o{"format", SettingType::Word, "WORD", "what -o - writes: one of\n" + inLines(known), "",
+             known};
+    o.set = [=](CommandLine& call, const Values& values) {
+        call.format = lowered(values.back());
+        if (!std::count(known.begin(), known.end(), call.format))
+            wrongValue("format", joinWords(known, ", "), values.back(),
+                       didYouMean(values.back(), known));
+    };
+    return of(verbs, o);
 }
 
 OptionGroup outputOptions()
 {
-    const auto output = [](unsigned verbs, std::string text) {
-        Option o{"output", 'o', "FILE", std::move(text), "", verbs, {}, true};
-        o.set = [](CommandLine& call, const Values& values) {
-            call.paths = values;
-            for (std::string& path : call.paths) // one name for one thing
-                if (path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1")
-                    path = "-";
-            call.given["output"] = call.paths;
-        };
-        return o;
-    };
     const auto written = [&](Verb verb, const char* more) {
         const std::string all = withOptionNames(filesOf(verb)) + "; - is standard output" + more;
-        return output(verb, "file to write; repeats; the extension says what:\n" +
-                                wrapped(all, helpWidth));
-    };
-    const auto format = [](Verb verb, unsigned verbs) {
-        const Values known = formatsOf(verb);
-        Option o{"format", 0,     "WORD", "what -o - writes: one of\n" + inLines(known),
-                 "",       verbs, known};
-        o.set = [=](CommandLine& call, const Values& values) {
-            call.format = lowered(values.back());
-            if (!std::count(known.begin(), known.end(), call.format))
-                wrongValue("format", joinWords(known, ", "), values.back(),
-                           didYouMean(values.back(), known));
-        };
-        return o;
+        return outputOption(verb, "file to write; repeats; the extension says what:\n" +
+                                      wrapped(all, helpWidth));
     };
     const auto force = [](unsigned verbs, const char* text) {
-        return flag("force", text, verbs, MOLSURF_OF(force));
+        return of(verbs, switchRow<CommandLine>("force", text, MOLSURF_OF(force)));
     };
-    Option folder{"folder", 'O',  "DIR", "where the files go, with the names of the structures",
-                  "",       Batch};
-    folder.set = [](CommandLine& call, const Values& values) { call.folder = values.back(); };
-    const std::string preset = CommandLine().formats, several = "files to write, by commas, of\n";
-    Option formats{"formats", 0, "LIST", several + inLines(formatsOf(Batch)), preset, Batch};
-    formats.set = [](CommandLine& call, const Values& values) { call.formats = values.back(); };
-    Option shown = either("color",
-                          "distance (OrRd) or signed-distance (blue: A is\ninside B, red: "
-                          "outside)",
-                          "signed-distance", "distance", Compare, MOLSURF_OF(colorBySign));
+    Option folder = textRow<CommandLine>(
+        {"folder", "DIR", "where the files go, with the names of the structures"},
+        MOLSURF_OF(folder));
+    folder.letter = 'O';
+    const std::string several = "files to write, by commas, of\n";
+    const Option shown =
+        either("color", "distance (OrRd) or signed-distance (blue: A is\ninside B, red: outside)",
+               "signed-distance", "distance", MOLSURF_OF(colorBySign));
     Option palette = setting("palette", Compare);
     palette.preset = "that of --color";
-    palette.stored = nullptr; // meshes have colours, too
+    palette.get = nullptr; // meshes have colours, too
     return {
         "Output",
         {written(Build, ""), written(Convert, "; .vdb with --color"),
          written(
              Compare,
              "; mesh and level set are those of A with distances; without it numbers are printed"),
-         output(BricksPlan, "the manifest, a name that ends in .json"), written(BricksMerge, ""),
-         folder, formats, format(Build, Build), format(Convert, Convert),
-         format(Compare, Compare | BricksMerge),
+         outputOption(BricksPlan, "the manifest, a name that ends in .json"),
+         written(BricksMerge, ""), of(Batch, folder),
+         of(Batch, textRow<CommandLine>({"formats", "LIST", several + inLines(formatsOf(Batch)),
+                                         CommandLine().formats},
+                                        MOLSURF_OF(formats))),
+         formatOption(Build, Build), formatOption(Convert, Convert),
+         formatOption(Compare, Compare | BricksMerge),
          force(files | BricksPlan, "replace existing files"),
          force(Batch, "do all again, and replace existing files"),
          force(BricksRun, "do it again if it is done"),
-         flag("skip-existing",
-              "do nothing if the files are of the same input, options and\n"
-              "version, by the report; make and replace them otherwise",
-              Build, MOLSURF_OF(skipExisting)),
-         shown, palette,
-         number("range", "D", "distance at the end of the colours [Å]",
-                "that of 99 % of the vertices", Compare, 1e-300, 1e300, "a positive number of Å",
-                MOLSURF_OF(colorRange))},
+         of(Build,
+            switchRow<CommandLine>("skip-existing",
+                                   "do nothing if the files are of the same input, options and\n"
+                                   "version, by the report; make and replace them otherwise",
+                                   MOLSURF_OF(skipExisting))),
+         of(Compare, shown), palette,
+         of(Compare, numberRow<CommandLine>({"range", "D", "distance at the end of the colours [Å]",
+                                             "that of 99 % of the vertices"},
+                                            {1e-300, 1e300, "a positive number of Å"},
+                                            MOLSURF_OF(colorRange)))},
         {{"vdb_molsurf 1crn.pdb -o 1crn.vdb -o 1crn.ply -o 1crn.json",
           "level set, mesh and report of one surface"},
          {"vdb_molsurf 1crn.pdb -o - --format ply > 1crn.ply", "a mesh on standard output"}}};
@@ -298,16 +187,15 @@ OptionGroup outputOptions()
 
 Option superposeOption()
 {
-    Option superpose = text("superpose", "SEL",
-                            "lay B on A, structures of --panel on INPUT or frames on the\n"
-                            "first one, by these atoms where chain, number and name are\n"
-                            "the same, such as \"chain A and name CA\"; auto: by CA and C4'",
-                            Build | Compare, MOLSURF_OF(superpose));
+    Option superpose =
+        textRow<CommandLine>({"superpose", "SEL",
+                              "lay B on A, structures of --panel on INPUT or frames on the\n"
+                              "first one, by these atoms where chain, number and name are\n"
+                              "the same, such as \"chain A and name CA\"; auto: by CA and C4'"},
+                             MOLSURF_OF(superpose));
     superpose.words = {"auto"};
-    superpose.stored = [](const CommandLine& c) {
-        return stored(c.superpose.empty() ? "none" : c.superpose);
-    };
-    return superpose;
+    superpose.get = [](const CommandLine& c) { return c.superpose.empty() ? "none" : c.superpose; };
+    return of(Build | Compare, superpose);
 }
 
 OptionGroup atomOptions()
@@ -315,12 +203,11 @@ OptionGroup atomOptions()
     return {"Atoms",
             {setting("select", structures), setting("model", structures),
              setting("assembly", structures), setting("instances", Build),
-             setting("by-symmetry", Build), fileOption("weld", Build),
-             setting("copies", structures), setting("altloc", structures),
-             setting("no-hydrogens", structures), setting("ions", structures),
-             setting("hetero", structures), setting("no-hetero", structures),
-             setting("waters", structures), setting("radii", structures),
-             setting("probe", structures), superposeOption(),
+             setting("by-symmetry", Build), setting("weld", Build), setting("copies", structures),
+             setting("altloc", structures), setting("no-hydrogens", structures),
+             setting("ions", structures), setting("hetero", structures),
+             setting("no-hetero", structures), setting("waters", structures),
+             setting("radii", structures), setting("probe", structures), superposeOption(),
              setting("max-input", structures | Info)},
             {{"vdb_molsurf 4hhb.cif.gz --select \"chain A or within 5 of resn HEM\" -o part.ply",
               "some of the atoms"},
@@ -329,26 +216,46 @@ OptionGroup atomOptions()
 
 OptionGroup frameOptions()
 {
-    return {"Frames",
-            {text("frames", "A-B:S",
-                  "a surface for every S-th frame from A to B: models of\n"
-                  "INPUT by their numbers, or frames of --trajectory; also\n"
-                  "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
-                  "name.csv: a table of all",
-                  Build, MOLSURF_OF(frames)),
-             ofFile(text("trajectory", "FILE",
-                         ".dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT", Build,
-                         MOLSURF_OF(trajectory))),
-             flag("update-selections",
-                  "selections by distance, as within 5 of resn HEM, are those\n"
-                  "of each frame, and not of the first",
-                  Build, MOLSURF_OF(updateSelections)),
-             count("first-frame", "N", "number of the first file, such as 1001: name.1001.vdb, ...",
-                   "1", Build, 0, 999999, MOLSURF_OF(firstFrame)),
-             fileOption("fps", Build)},
-            {{"vdb_molsurf 1d3z.pdb.gz --frames 1-4 -o 1d3z.ply", "a mesh for each of four models"},
-             {"vdb_molsurf top.pdb --trajectory run.xtc --frames all --superpose auto -o film.mp4",
-              "a film of a trajectory, each frame laid on the first"}}};
+    return {
+        "Frames",
+        {of(Build, textRow<CommandLine>({"frames", "A-B:S",
+                                         "a surface for every S-th frame from A to B: models of\n"
+                                         "INPUT by their numbers, or frames of --trajectory; also\n"
+                                         "A, A- (to the end), all; files name.0001.vdb, ...; -o\n"
+                                         "name.csv: a table of all"},
+                                        MOLSURF_OF(frames))),
+         of(Build, ofFile(textRow<CommandLine>(
+                       {"trajectory", "FILE",
+                        ".dcd, .xtc, .trr or .nc with the frames, its atoms those of INPUT"},
+                       MOLSURF_OF(trajectory)))),
+         of(Build,
+            switchRow<CommandLine>("update-selections",
+                                   "selections by distance, as within 5 of resn HEM, are those\n"
+                                   "of each frame, and not of the first",
+                                   MOLSURF_OF(updateSelections))),
+         of(Build, countRow<CommandLine>({"first-frame", "N",
+                                          "number of the first file, such as 1001: "
+                                          "name.1001.vdb, ...",
+                                          "1"},
+                                         0, 999999, MOLSURF_OF(firstFrame))),
+         setting("fps", Build)},
+        {{"vdb_molsurf 1d3z.pdb.gz --frames 1-4 -o 1d3z.ply", "a mesh for each of four models"},
+         {"vdb_molsurf top.pdb --trajectory run.xtc --frames all --superpose auto -o film.mp4",
+          "a film of a trajectory, each frame laid on the first"}}};
+}
+
+/// The voxels of --lod.
+void setLevels(CommandLine& call, const Values& values)
+{
+    const std::string expected = "2 to 8 ascending voxels by commas [Å], such as 1,2,4";
+    call.lod.clear();
+    for (const std::string& word : splitWords(values.back())) {
+        const double voxel = parsedValue<double>("lod", expected, word);
+        if (!(voxel > (call.lod.empty() ? 0.0 : call.lod.back())))
+            wrongValue("lod", expected, values.back());
+        call.lod.push_back(voxel);
+    }
+    if (call.lod.size() < 2 || call.lod.size() > 8) wrongValue("lod", expected, values.back());
 }
 
 OptionGroup surfaceOptions()
@@ -356,38 +263,27 @@ OptionGroup surfaceOptions()
     Option attributes = setting("fields", Convert);
     attributes.text =
         "curvatures for the vertices of a .ply or .glb, by commas,\nas of vdb_molsurf --help";
-    Option levels{"lod",
-                  0,
-                  "LIST",
+    Option levels{"lod", SettingType::List, "LIST",
                   "with --instances: voxels such as 1,2,4 in the place of\n"
                   "--voxel, a mesh each; the .html shows the finest that is\n"
                   "worth it, in .glb and .usda the first one is the default",
-                  "",
-                  Build};
-    levels.set = [](CommandLine& call, const Values& values) {
-        const std::string expected = "2 to 8 ascending voxels by commas [Å], such as 1,2,4";
-        call.lod.clear();
-        for (const std::string& word : splitWords(values.back())) {
-            const double voxel = parsedValue<double>("lod", expected, word);
-            if (!(voxel > (call.lod.empty() ? 0.0 : call.lod.back())))
-                wrongValue("lod", expected, values.back());
-            call.lod.push_back(voxel);
-        }
-        if (call.lod.size() < 2 || call.lod.size() > 8) wrongValue("lod", expected, values.back());
-    };
-    levels.stored = [](const CommandLine& c) {
+                  ""};
+    levels.set = setLevels;
+    levels.get = [](const CommandLine& c) {
         Values all;
         for (const double voxel : c.lod) all.push_back(shortest(voxel));
-        return stored(all.empty() ? "none" : joinWords(all, ","));
+        return all.empty() ? "none" : joinWords(all, ",");
     };
+    const Option iso =
+        numberRow<CommandLine>({"iso", "V",
+                                "of a map: the level set where it has this value, negative\n"
+                                "where it has more, or, of V below 0, less; else fog"},
+                               {-1e30, 1e30, "a number"}, MOLSURF_OF(iso));
     return {"Surface",
-            {setting("surface", structures), setting("voxel", structures), shownIn(Levels, levels),
-             number("iso", "V",
-                    "of a map: the level set where it has this value, negative\n"
-                    "where it has more, or, of V below 0, less; else fog",
-                    "", Convert, -1e30, 1e30, "a number", MOLSURF_OF(iso)),
+            {setting("surface", structures), setting("voxel", structures),
+             of(Build, shownIn(Levels, levels)), of(Convert, iso),
              setting("blobbiness", structures), setting("fill-cavities", wholes | Compare),
-             fileOption("walls", Build), setting("remesh", wholes | Convert),
+             setting("walls", Build), setting("remesh", wholes | Convert),
              setting("density", wholes | Convert), setting("adapt", wholes | Convert),
              setting("fields", surfaces), attributes, shownIn(Grids, setting("vdb-half", surfaces)),
              shownIn(Numbers, setting("curvature-totals", wholes)),
@@ -426,20 +322,20 @@ Values storableColorHelp()
 
 OptionGroup colorOptions()
 {
-    const Option shown =
-        with(word("color", "WORD",
-                  wrapped(joinWords(storableColorHelp(), ", ") +
-                              "; chain and group are of grids chain_id and group_id, "
-                              "the others of Cd so coloured or of the mesh; those of "
-                              "Cd unless given",
-                          helpWidth),
-                  Convert, MOLSURF_OF(options.color), storableColors()),
-             [](Option& o) { o.preset = ""; });
+    Option shown =
+        wordRow<CommandLine>("color",
+                             wrapped(joinWords(storableColorHelp(), ", ") +
+                                         "; chain and group are of grids chain_id and group_id, "
+                                         "the others of Cd so coloured or of the mesh; those of "
+                                         "Cd unless given",
+                                     helpWidth),
+                             storableColors(), MOLSURF_OF(options.color));
+    shown.preset = "";
     return {"Colours",
-            {setting("color", surfaces), shown, setting("range", surfaces | Convert),
+            {setting("color", surfaces), of(Convert, shown), setting("range", surfaces | Convert),
              setting("palette", surfaces | Convert), setting("value-of", surfaces),
              setting("flat-values", surfaces), setting("outward", surfaces),
-             fileOption("plain-color", wholes | Convert), fileOption("crisp", Build)},
+             setting("plain-color", wholes | Convert), setting("crisp", Build)},
             {{"vdb_molsurf 4hhb.cif.gz --color chain -o chains.png", "a colour for each chain"},
              {"vdb_molsurf 1ubq.pdb --color bfactor --range 0,40 -o b.glb",
               "B factors from 0 to 40 Å^2"}}};
@@ -447,20 +343,17 @@ OptionGroup colorOptions()
 
 OptionGroup groupOptions()
 {
-    const Option groups =
-        with(text("groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]",
-                  surfaces, MOLSURF_OF(groupsFile)),
-             [](Option& o) {
-                 o.stored = [](const CommandLine& c) {
-                     Values all;
-                     for (const GroupRule& group : c.labels.groups)
-                         all.push_back(group.name + " " + group.select);
-                     return stored(joinWords(all, ", "));
-                 };
-                 o.file = wholeValue;
-             });
+    Option groups = ofFile(textRow<CommandLine>(
+        {"groups", "FILE", "groups of atoms: JSON, or lines NAME SELECTION [COLOUR]"},
+        MOLSURF_OF(groupsFile)));
+    groups.get = [](const CommandLine& c) {
+        Values all;
+        for (const GroupRule& group : c.labels.groups)
+            all.push_back(group.name + " " + group.select);
+        return joinWords(all, ", ");
+    };
     return {"Groups",
-            {groups, setting("group-by", surfaces), setting("split", wholes),
+            {of(surfaces, groups), setting("group-by", surfaces), setting("split", wholes),
              setting("surface-of", wholes), setting("interfaces", wholes)},
             {{"vdb_molsurf 4hhb.cif.gz --group-by chain --split group -o chains.glb",
               "a surface for each chain"},
@@ -471,12 +364,11 @@ OptionGroup groupOptions()
 OptionGroup areaOptions()
 {
     Option areas{"areas",
-                 0,
+                 SettingType::List,
                  "LIST",
                  "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, "
                  "pockets,\npore, tunnels, forces",
                  "",
-                 wholes,
                  areaTables()};
     areas.set = [](CommandLine& call, const Values& values) {
         call.areas = splitWords(lowered(values.back()));
@@ -486,7 +378,7 @@ OptionGroup areaOptions()
                            didYouMean(table, areaTables()));
     };
     return {"Areas",
-            {shownIn(Numbers, areas), shownIn(0, fileOption("contacts", wholes))},
+            {of(wholes, shownIn(Numbers, areas)), shownIn(0, setting("contacts", wholes))},
             {{"vdb_molsurf 1ubq.pdb -o 1ubq.residues.csv", "accessible area of each residue"},
              {"vdb_molsurf 4hhb.cif.gz -o 4hhb.contacts.csv --contacts chain",
               "contact areas between chains"}}};
@@ -518,24 +410,25 @@ OptionGroup poreOptions()
 
 OptionGroup sceneOptions()
 {
-    Option center = fileOption("center", wholes);
+    Option center = setting("center", wholes);
     center.shownIn = 0; // pictures look the same
     return {
         "Scene",
-        {fileOption("for", wholes), fileOption("fog-density", wholes), fileOption("ids", wholes),
-         fileOption("one-box", wholes), fileOption("mips", wholes), center},
+        {setting("for", wholes), setting("fog-density", wholes), setting("ids", wholes),
+         setting("one-box", wholes), setting("mips", wholes), center},
         {{"vdb_molsurf 1crn.pdb --for blender -o 1crn.vdb", "a volume with colours for Blender"},
          {"vdb_molsurf 1crn.pdb --for usd --center -o 1crn.vdb", "a volume and its stage of USD"}}};
 }
 
 OptionGroup printOptions()
 {
+    const Option wall =
+        stored(numberRow<CommandLine>(
+                   {"min-wall", "W", "thicken what is thinner than W mm; with --print-scale"},
+                   {1e-300, 1e300, "a positive number of mm"}, MOLSURF_OF(wall)),
+               MOLSURF_OF(options.minWall));
     return {"Print",
-            {fileOption("print-scale", wholes | Convert),
-             numberKept(MOLSURF_OF(options.minWall),
-                        number("min-wall", "W",
-                               "thicken what is thinner than W mm; with --print-scale", "", wholes,
-                               1e-300, 1e300, "a positive number of mm", MOLSURF_OF(wall)))},
+            {setting("print-scale", wholes | Convert), of(wholes, wall)},
             {{"vdb_molsurf 1crn.pdb --print-scale 2 -o 1crn.3mf", "a print of 2 mm per Å"},
              {"vdb_molsurf 1crn.pdb --print-scale 2 --min-wall 1 --walls outer -o 1crn.stl",
               "no wall thinner than 1 mm, without cavities"}}};
@@ -544,8 +437,8 @@ OptionGroup printOptions()
 OptionGroup solverOptions()
 {
     return {"Electrostatics",
-            {ofFile(fileOption("apbs-grid", Build)), fileOption("pdie", Build),
-             fileOption("sdie", Build), fileOption("ion-conc", Build)},
+            {setting("apbs-grid", Build), setting("pdie", Build), setting("sdie", Build),
+             setting("ion-conc", Build)},
             {{"vdb_molsurf molecule.pqr --for apbs -o run/", "input, charges and maps for APBS"},
              {"vdb_molsurf molecule.pqr --match ses --for apbs --ion-conc 0.15 -o run/",
               "the same with a smooth boundary, in 0.15 mol/L of salt"}}};
@@ -574,28 +467,21 @@ Option showOption()
     for (const AtomStyle& row : atomStyles()) all.push_back(row.word + ": "s + row.help);
     all.push_back("or pockets: the bodies of the " + std::to_string(fewPockets) +
                   " largest, in pages too; pockets=N, pockets=all");
-    Option show{
-        "show",
-        0,
-        "[SEL=]WORD",
-        wrapped(
-            "atoms beside the surface, whole and opaque, such as \"(HEM)=sticks\", with carbon in "
-            "the colour of its chain, or sticks,golden; repeats; " +
-                joinWords(all, "; "),
-            helpWidth),
-        "",
-        Build | Batch};
-    for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
-    show.words.push_back("pockets");
-    show.repeats = true;
-    show.set = [](CommandLine& call, const Values& values) {
-        for (const std::string& value : values)
+    Option show = rulesRow<CommandLine>(
+        {"show", "[SEL=]WORD",
+         wrapped("atoms beside the surface, whole and opaque, such as \"(HEM)=sticks\", with "
+                 "carbon in the colour of its chain, or sticks,golden; repeats; " +
+                     joinWords(all, "; "),
+                 helpWidth)},
+        [](CommandLine& call, const std::string& value) {
             if (const std::size_t count = pocketsIn(value))
                 call.shownPockets = count;
             else
                 call.shows.push_back(parseShow(value, {"pockets"}));
-    };
-    return show;
+        });
+    for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
+    show.words.push_back("pockets");
+    return of(wholes, shownIn(Pixels | ColorChoices, show));
 }
 
 /// The kind of surface that a word names.
@@ -606,52 +492,46 @@ std::optional<SurfaceKind> surfaceKindOf(const std::string& word)
     return std::nullopt;
 }
 
+/// The further picture that a value of --panel asks for.
+Panel panelOf(const std::string& value)
+{
+    const auto way = directionOf(value);
+    if (value.empty() || (way && !(way->length() > 0.0 && std::isfinite(way->length()))))
+        wrongValue("panel", "a file or a direction X,Y,Z that is not 0, or a kind of surface",
+                   value);
+    const auto kind = surfaceKindOf(value);
+    std::error_code ignored;
+    const std::string hint =
+        way || kind || std::filesystem::exists(value, ignored) ? "" : kindMeant(value);
+    if (!hint.empty()) wrongValue("panel", "a file, a direction or a kind of surface", value, hint);
+    if (way) return {"", *way};
+    return kind ? Panel{"", openvdb::Vec3d(0.0), kind} : Panel{value};
+}
+
 Option panelOption()
 {
-    Option panel{"panel",
-                 0,
-                 "WHAT",
-                 "a further picture beside the first, with its camera, scale\n"
-                 "and legend: the FILE of another structure, or the same one\n"
-                 "from X,Y,Z or with a surface of another KIND; a page shows\n"
-                 "files and kinds side by side or in turn; repeats",
-                 "",
-                 Build};
-    panel.repeats = true;
+    Option panel = rulesRow<CommandLine>(
+        {"panel", "WHAT",
+         "a further picture beside the first, with its camera, scale\n"
+         "and legend: the FILE of another structure, or the same one\n"
+         "from X,Y,Z or with a surface of another KIND; a page shows\n"
+         "files and kinds side by side or in turn; repeats"},
+        [](CommandLine& call, const std::string& value) { call.panels.push_back(panelOf(value)); });
     panel.file = [](const std::string& value) {
         return directionOf(value) || surfaceKindOf(value) ? std::string::npos : std::size_t(0);
     };
-    panel.set = [](CommandLine& call, const Values& values) {
-        for (const std::string& value : values) {
-            const auto way = directionOf(value);
-            if (value.empty() || (way && !(way->length() > 0.0 && std::isfinite(way->length()))))
-                wrongValue("panel",
-                           "a file or a direction X,Y,Z that is not 0, or a kind of surface",
-                           value);
-            const auto kind = surfaceKindOf(value);
-            std::error_code ignored;
-            const std::string hint =
-                way || kind || std::filesystem::exists(value, ignored) ? "" : kindMeant(value);
-            if (!hint.empty())
-                wrongValue("panel", "a file, a direction or a kind of surface", value, hint);
-            call.panels.push_back(way    ? Panel{"", *way}
-                                  : kind ? Panel{"", openvdb::Vec3d(0.0), kind}
-                                         : Panel{value});
-        }
-    };
-    return shownIn(Pixels | ColorChoices, panel);
+    return of(Build, shownIn(Pixels | ColorChoices, panel));
 }
 
 /// An option that adds to the notes of pictures.
 Option noteOption(const char* name, const char* argument, const char* help,
                   NoteText (*parse)(const std::string& text))
 {
-    Option note{name, 0, argument, help, "", Build | Batch};
-    note.repeats = true;
-    note.set = [=](CommandLine& call, const Values& values) {
-        for (const std::string& value : values) call.notes.push_back(parse(value));
-    };
-    return shownIn(Pixels, note);
+    return of(wholes, shownIn(Pixels, rulesRow<CommandLine>(
+                                          {name, argument, help},
+                                          [=](CommandLine& call, const std::string& value) {
+                                              call.notes.push_back(parse(value));
+                                          })));
 }
 
 Option labelOption()
@@ -674,18 +554,14 @@ Option rulerOption()
 OptionGroup pictureOptions()
 {
     constexpr unsigned draw = wholes | Convert | Compare;
-    Option view = fileOption("view", draw);
+    Option view = setting("view", draw);
     view.set = setView;
-    view.file = [](const std::string& value) {
-        return isViewName(value) ? std::size_t(0) : std::string::npos;
-    };
     return {"Picture",
-            {view, fileOption("up", draw), fileOption("turn", draw), fileOption("size", draw),
-             fileOption("background", draw), fileOption("style", draw),
-             shownIn(Pixels | ColorChoices, showOption()), labelOption(), rulerOption(),
-             panelOption(), fileOption("opacity", draw), fileOption("all-walls", draw),
-             fileOption("clip", draw), fileOption("depth-cue", draw), fileOption("legend", draw),
-             fileOption("scale-bar", draw), fileOption("dpi", draw), fileOption("turntable", draw)},
+            {view, setting("up", draw), setting("turn", draw), setting("size", draw),
+             setting("background", draw), setting("style", draw), showOption(), labelOption(),
+             rulerOption(), panelOption(), setting("opacity", draw), setting("all-walls", draw),
+             setting("clip", draw), setting("depth-cue", draw), setting("legend", draw),
+             setting("scale-bar", draw), setting("dpi", draw), setting("turntable", draw)},
             {{"vdb_molsurf 4hhb.cif.gz --color chain --show \"resn HEM=sticks\" --opacity 0.5 "
               "-o haems.png",
               "ligands behind a translucent surface"},
@@ -711,13 +587,12 @@ OptionGroup flowOptions()
 Option requireOption()
 {
     Option required{"require",
-                    0,
+                    SettingType::List,
                     "LIST",
                     "what the mesh has to be, or nothing is written and the\n"
                     "status is 3: watertight, manifold, components=N, cavities=N,\n"
                     "genus=N, min-angle=DEGREES",
                     "",
-                    wholes,
                     requirementWords()};
     required.set = [](CommandLine& call, const Values& values) {
         const auto parsed = parseRequirements(values.back());
@@ -730,65 +605,71 @@ Option requireOption()
                                    {"connected one-piece", "components=1"}}));
         call.required = *parsed;
     };
-    return required;
+    return of(wholes, required);
 }
 
 Option threadsOption()
 {
-    Option threads{"threads", 'j', "N", "threads at most", "all", runs};
-    threads.set = [set = countSetter("threads", 1, 4096, MOLSURF_OF(threads))](
-                      CommandLine& call, const Values& values) {
+    Option threads = countRow<CommandLine>({"threads", "N", "threads at most", "all"}, 1, 4096,
+                                           MOLSURF_OF(threads));
+    threads.letter = 'j';
+    threads.set = [set = threads.set](CommandLine& call, const Values& values) {
         const std::string word = lowered(values.back());
         if (word == "0" || word == "-1" || word == "all" || word == "auto" || word == "max")
             wrongValue("threads", "a whole number from 1 to 4096", values.back(),
                        " [hint: all cores are used without `threads`]");
         set(call, values);
     };
-    return threads;
+    return of(runs, threads);
+}
+
+Option memoryOption(unsigned verbs, std::string text)
+{
+    Option o{"memory", SettingType::Text, "SIZE", std::move(text), ""};
+    o.set = [](CommandLine& call, const Values& values) {
+        call.memory = sizeValue("memory", values.back());
+        constexpr std::size_t least = 1024; // a number without its unit
+        if (call.memory < least)
+            wrongValue("memory", "a size such as 500M or 4G", values.back(),
+                       meant(values.back() + "G"));
+    };
+    return of(verbs, o);
 }
 
 OptionGroup runOptions()
 {
-    const auto memory = [](unsigned verbs, std::string text) {
-        Option o{"memory", 0, "SIZE", std::move(text), "", verbs};
-        o.set = [](CommandLine& call, const Values& values) {
-            call.memory = sizeValue("memory", values.back());
-            constexpr std::size_t least = 1024; // a number without its unit
-            if (call.memory < least)
-                wrongValue("memory", "a size such as 500M or 4G", values.back(),
-                           meant(values.back() + "G"));
-        };
-        return o;
-    };
-    const auto flagOf = [](const char* name, char letter, const char* text, unsigned verbs,
-                           const auto& of, bool on = true) {
-        Option o = flag(name, text, verbs, of, on);
+    const auto flag = [](unsigned verbs, const char* name, char letter, const char* text,
+                         const auto& member, bool on = true) {
+        Option o = switchRow<CommandLine>(name, text, member, on);
         o.letter = letter;
-        return o;
+        return of(verbs, o);
     };
-    return {
-        "Run",
-        {count("bricks", "N", "how many bricks, about as large each", "", BricksPlan, 1, 1000000,
-               MOLSURF_OF(bricks)),
-         memory(BricksPlan, "or as many bricks as it takes for each to need no more,\n"
-                            "such as 500M or 4G"),
-         memory(Build, "memory at most, such as 4G: in bricks, one by one, if\n"
-                       "the whole takes more; the flow then takes so many --steps"),
-         number("max-hours", "H", "refuse what is estimated to take more hours", "24",
-                Build | Batch | Compare | Convert | BricksRun, 1e-6, 1e6, "hours, from 1e-6 to 1e6",
-                MOLSURF_OF(hours)),
-         flagOf("dry-run", 0, "print the estimated time and memory, and stop",
-                Build | Compare | Convert, MOLSURF_OF(dryRun)),
-         requireOption(), threadsOption(),
-         flagOf("quiet", 'q', "print errors only", runs, MOLSURF_OF(quiet)),
-         flagOf("verbose", 'v', "print the time of every stage",
-                Build | Batch | Compare | Convert | BricksMerge, MOLSURF_OF(verbose)),
-         flagOf("no-progress", 0, "no progress bar", runs, MOLSURF_OF(progress), false),
-         ofFile(text("config", "FILE", "options as lines \"name = value\"; the command line wins",
-                     structures | Convert, MOLSURF_OF(config)))},
-        {{"vdb_molsurf 4v5a.cif.gz --dry-run -o 4v5a.ply", "estimated time and memory"},
-         {"vdb_molsurf 4v5a.cif.gz --memory 4G -j 8 -o 4v5a.ply",
-          "at most 4 GiB and eight threads"}}};
+    return {"Run",
+            {of(BricksPlan,
+                countRow<CommandLine>({"bricks", "N", "how many bricks, about as large each"}, 1,
+                                      1000000, MOLSURF_OF(bricks))),
+             memoryOption(BricksPlan, "or as many bricks as it takes for each to need no more,\n"
+                                      "such as 500M or 4G"),
+             memoryOption(Build, "memory at most, such as 4G: in bricks, one by one, if\n"
+                                 "the whole takes more; the flow then takes so many --steps"),
+             of(Build | Batch | Compare | Convert | BricksRun,
+                numberRow<CommandLine>(
+                    {"max-hours", "H", "refuse what is estimated to take more hours", "24"},
+                    {1e-6, 1e6, "hours, from 1e-6 to 1e6"}, MOLSURF_OF(hours))),
+             flag(Build | Compare | Convert, "dry-run", 0,
+                  "print the estimated time and memory, and stop", MOLSURF_OF(dryRun)),
+             requireOption(), threadsOption(),
+             flag(runs, "quiet", 'q', "print errors only", MOLSURF_OF(quiet)),
+             flag(Build | Batch | Compare | Convert | BricksMerge, "verbose", 'v',
+                  "print the time of every stage", MOLSURF_OF(verbose)),
+             flag(runs, "no-progress", 0, "no progress bar", MOLSURF_OF(progress), false),
+             of(structures | Convert,
+                ofFile(textRow<CommandLine>(
+                    {"config", "FILE", "options as lines \"name = value\"; the command line wins"},
+                    MOLSURF_OF(config))))},
+            {{"vdb_molsurf 4v5a.cif.gz --dry-run -o 4v5a.ply", "estimated time and memory"},
+             {"vdb_molsurf 4v5a.cif.gz --memory 4G -j 8 -o 4v5a.ply",
+              "at most 4 GiB and eight threads"}}};
 }
 
 } // namespace
@@ -805,12 +686,17 @@ const std::vector<OptionGroup>& optionTable()
 
 std::vector<OptionGroup> optionGroups(unsigned verb)
 {
+    const auto text = [](unsigned verbs, const char* name, char letter, const char* help) {
+        Option o{name, SettingType::Switch, nullptr, help, ""};
+        o.letter = letter;
+        return of(verbs, o);
+    };
     std::vector<OptionGroup> groups = optionTable();
     groups.push_back({"Information",
-                      {{"list-radii", 0, nullptr, "print the radii sets and stop", "", Build},
-                       {"version", 'V', nullptr, "print the version and stop", "", 0xff},
-                       {"help", 'h', nullptr, "print the common options and stop", "", 0xff},
-                       {"help-all", 0, nullptr, "print all options and stop", "", 0xff}}});
+                      {text(Build, "list-radii", 0, "print the radii sets and stop"),
+                       text(0xff, "version", 'V', "print the version and stop"),
+                       text(0xff, "help", 'h', "print the common options and stop"),
+                       text(0xff, "help-all", 0, "print all options and stop")}});
     for (OptionGroup& group : groups) {
         std::vector<Option>& options = group.options;
         options.erase(std::remove_if(options.begin(), options.end(),
@@ -857,9 +743,10 @@ void addOptions(const CommandLine& call, openvdb::MetaMap& map)
     };
     for (const OptionGroup& group : optionTable())
         for (const Option& option : group.options)
-            if (option.stored && (option.verbs & Build)) add(option.name, *option.stored(call));
+            if (option.get && (option.verbs & Build))
+                add(option.name, *metadataOf(option.get(call)));
     for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->stored && !readsOnce(file.path))
+        if (file.option->get && !readsOnce(file.path))
             add(file.option->name + ".sha256"s, openvdb::StringMetadata(sha256OfFile(file.path)));
 }
 

@@ -7,38 +7,18 @@
 
 #include "cli/call.h"
 
-#include "molsurf/kernel/core/strings.h"
+#include "molsurf/settings.h"
 
 #include <openvdb/openvdb.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace molsurf::tool
 {
 
-/// One option.
-struct Option {
-    const char* name;                    ///< "output"
-    char letter;                         ///< 'o', or 0
-    const char* value;                   ///< what follows it in a help text; nullptr for a switch
-    std::string text;                    ///< what --help says of it; '\n' starts a new line
-    std::string preset;                  ///< the default as --help shows it; empty for none
-    unsigned verbs;                      ///< that take it
-    std::vector<std::string> words = {}; ///< the values that are words, for completion
-    bool repeats = false;
-    /// Sets it.
-    /// @throws Error(ErrorKind::Usage) for a value that it cannot have
-    std::function<void(CommandLine&, const std::vector<std::string>& values)> set = nullptr;
-    /// Its value as metadata of a file; null: it is not stored.
-    std::function<openvdb::Metadata::Ptr(const CommandLine&)> stored = nullptr;
-    /// Where in a value the path of a file begins that is read; npos: the value names none. Null:
-    /// no value does.
-    std::function<std::size_t(const std::string& value)> file = nullptr;
-    /// The formats that show it, as a set of holds::Content; 0: it is no matter of formats.
-    unsigned shownIn = 0;
-};
+/// An option of the command line, with the verbs that take it.
+using Option = OptionRow<CommandLine>;
 
 /// A command line that people can take as it is printed, and what it makes.
 struct Example {

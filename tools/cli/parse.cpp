@@ -212,7 +212,7 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
         if (!(known && known->value) && !option.value.empty() && !isOn(name, option.value[0]))
             continue; // a switch that is off
         std::vector<std::string>& values = fresh[name];
-        if (known && known->value && !known->repeats && !values.empty())
+        if (known && known->value && !known->repeats() && !values.empty())
             usageError("--" + name + " is given twice");
         if (known && known->value) {
             if (option.value.empty() || option.value[0].empty()) missingValue(*known);

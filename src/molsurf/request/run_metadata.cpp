@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/request/run_metadata.h"
 
+#include "molsurf/request/request_table.h"
 #include "molsurf/show/io/scene.h"
 
 #include <cmath>
@@ -41,12 +42,9 @@ openvdb::MetaMap runMetadata(const Request& request, const Report& report)
         add("trajectory", request.trajectory.empty() ? request.input : request.trajectory);
         add("frames.options", request.frameDigest);
     }
-    const auto addRow = [&](const auto& row) {
-        if (row.get) add(("option." + std::string(row.name)).c_str(), row.get(request));
-    };
-    for (const Setting& row : settingTable())
-        if (request.knowsAtoms || row.of == SettingOf::Surface) addRow(row);
-    for (const FileSetting& row : fileSettings()) addRow(row);
+    for (const OptionRow<Request>& row : requestTable())
+        if (row.get && (request.knowsAtoms || row.of == SettingOf::Surface))
+            add(("option." + std::string(row.name)).c_str(), row.get(request));
     describeScene(request.scene, map);
     return map;
 }

@@ -10,7 +10,7 @@
 #include "molsurf/show/io/scene.h"
 #include "molsurf/show/io/write_apbs.h"
 #include "molsurf/show/io/write_mesh.h"
-#include "molsurf/surface/setting_row.h"
+#include "molsurf/surface/option_row.h"
 
 #include <string>
 #include <vector>
@@ -47,7 +47,7 @@ struct FileSettings {
 };
 
 /// An option of files.
-using FileSetting = SettingRow<FileSettings>;
+using FileSetting = OptionRow<FileSettings>;
 
 /// All of them, in the order of help texts.
 const std::vector<FileSetting>& fileSettings();

@@ -44,64 +44,62 @@ std::optional<openvdb::Vec3d> numbersIn(const std::string& text)
 
 PictureSetting viewSetting()
 {
-    return {"view",
-            "FROM",
-            "a direction toward the eye, X,Y,Z or an axis as z or -z;\n"
-            "atoms that face it, as \"A/63\"; FILE.view, as -o writes it;\n"
-            "auto: the shortest extent toward the eye, the longest across",
-            "auto",
-            holds::Views,
-            {"auto"},
-            [](PictureSettings& to, const Values& values) {
-                if (!takeView(values.back(), to.picture))
-                    wrongValue("view", "auto, a direction X,Y,Z, an axis as z or a FILE.view",
-                               values.back());
-            }};
+    PictureSetting row{"view",
+                       SettingType::Text,
+                       "FROM",
+                       "a direction toward the eye, X,Y,Z or an axis as z or -z;\n"
+                       "atoms that face it, as \"A/63\"; FILE.view, as -o writes it;\n"
+                       "auto: the shortest extent toward the eye, the longest across",
+                       "auto",
+                       {"auto"}};
+    row.set = [](PictureSettings& to, const Values& values) {
+        if (!takeView(values.back(), to.picture))
+            wrongValue("view", "auto, a direction X,Y,Z, an axis as z or a FILE.view",
+                       values.back());
+    };
+    row.file = [](const std::string& value) {
+        return isViewName(value) ? std::size_t(0) : std::string::npos;
+    };
+    return shownIn(holds::Views, row);
 }
 
 PictureSetting uprightSetting()
 {
-    return {"up",
-            "X,Y,Z",
-            "what is upright, such as z, the normal of a membrane;\n"
-            "without it y, or z for a view along x or y, or of itself\n"
-            "the normal of a membrane, where no view is asked for",
-            "",
-            holds::Views,
-            {},
-            [](PictureSettings& to, const Values& values) {
-                const auto way = directionOf(values.back());
-                if (!way || !hasLength(*way))
-                    wrongValue("up", "a direction X,Y,Z that is not 0, or an axis as z",
-                               values.back());
-                to.picture.upright = *way;
-            }};
+    PictureSetting row{"up", SettingType::Text, "X,Y,Z",
+                       "what is upright, such as z, the normal of a membrane;\n"
+                       "without it y, or z for a view along x or y, or of itself\n"
+                       "the normal of a membrane, where no view is asked for",
+                       ""};
+    row.set = [](PictureSettings& to, const Values& values) {
+        const auto way = directionOf(values.back());
+        if (!way || !hasLength(*way))
+            wrongValue("up", "a direction X,Y,Z that is not 0, or an axis as z", values.back());
+        to.picture.upright = *way;
+    };
+    return shownIn(holds::Views, row);
 }
 
 PictureSetting sizeSetting()
 {
-    const auto set = countSetter("size", 16, 16384, MOLSURF_OF(picture.width));
-    return {"size",
-            "N",
-            "width in pixels; the height follows the shape",
-            "1200",
-            holds::Pixels,
-            {},
-            [set](PictureSettings& to, const Values& values) {
-                const std::size_t by = lowered(values.back()).find_first_of("x,*"); // "800x600"
-                if (by != std::string::npos && by > 0)
-                    wrongValue("size", "the width alone", values.back(),
-                               meant(values.back().substr(0, by)));
-                set(to, values);
-            }};
+    auto row = countRow<PictureSettings>(
+        {"size", "N", "width in pixels; the height follows the shape", "1200"}, 16, 16384,
+        MOLSURF_OF(picture.width));
+    row.set = [set = row.set](PictureSettings& to, const Values& values) {
+        const std::size_t by = lowered(values.back()).find_first_of("x,*"); // "800x600"
+        if (by != std::string::npos && by > 0)
+            wrongValue("size", "the width alone", values.back(),
+                       meant(values.back().substr(0, by)));
+        set(to, values);
+    };
+    return row;
 }
 
 PictureSetting opacitySetting()
 {
     constexpr NumberRange range = {0.01, 1.0, "a number from 0.01 to 1"};
-    PictureSetting row = numberRow<PictureSettings>(
-        {"opacity", "O", "of the surface, seen from the front", "1"},
-        holds::Pixels | holds::ColorChoices, range, MOLSURF_OF(picture.opacity));
+    auto row =
+        numberRow<PictureSettings>({"opacity", "O", "of the surface, seen from the front", "1"},
+                                   range, MOLSURF_OF(picture.opacity));
     row.set = [set = row.set, range](PictureSettings& to, const Values& values) {
         std::string number = values.back();
         if (!number.empty() && number.back() == '%') number.pop_back();
@@ -110,35 +108,30 @@ PictureSetting opacitySetting()
             wrongValue("opacity", range.words, values.back(), meant(shortest(percent / 100.0)));
         set(to, values);
     };
-    return row;
+    return shownIn(holds::Pixels | holds::ColorChoices, row);
 }
 
 PictureSetting backgroundSetting()
 {
-    return {"background",
-            "COLOR",
-            "as #rrggbb or #rgb, a name such as black, or transparent",
-            "#ffffff",
-            holds::Pixels,
-            {"transparent"},
-            [](PictureSettings& to, const Values& values) {
-                to.picture.transparent = lowered(values.back()) == "transparent";
-                if (to.picture.transparent) return;
-                to.picture.background = colorValue("background", ", or transparent", values.back());
-            }};
+    PictureSetting row{"background", SettingType::Text,
+                       "COLOR",      "as #rrggbb or #rgb, a name such as black, or transparent",
+                       "#ffffff",    {"transparent"}};
+    row.set = [](PictureSettings& to, const Values& values) {
+        to.picture.transparent = lowered(values.back()) == "transparent";
+        if (to.picture.transparent) return;
+        to.picture.background = colorValue("background", ", or transparent", values.back());
+    };
+    return row;
 }
 
 PictureSetting plainColorSetting()
 {
-    return {"plain-color",
-            "COLOR",
-            "of a surface without `color`",
-            "#8cb5de",
-            holds::PlainColor,
-            {},
-            [](PictureSettings& to, const Values& values) {
-                to.picture.plain = colorValue("plain-color", "", values.back());
-            }};
+    PictureSetting row{"plain-color", SettingType::Text, "COLOR", "of a surface without `color`",
+                       "#8cb5de"};
+    row.set = [](PictureSettings& to, const Values& values) {
+        to.picture.plain = colorValue("plain-color", "", values.back());
+    };
+    return shownIn(holds::PlainColor, row);
 }
 
 PictureSetting styleSetting()
@@ -148,37 +141,36 @@ PictureSetting styleSetting()
         words.push_back(row.word);
         all.push_back(row.word + (*row.help ? std::string(": ") + row.help : ""));
     }
-    return {"style",
-            "WORD",
-            wrapped(joinWords(all, "; "), helpWidth),
-            styleTable().front().word,
-            holds::Pixels,
-            words,
-            [words](PictureSettings& to, const Values& values) {
-                to.picture.style = findStyle(values.back());
-                if (!to.picture.style)
-                    wrongValue("style", joinWords(words, ", "), values.back(),
-                               didYouMean(values.back(), words));
-            }};
+    PictureSetting row{"style",
+                       SettingType::Word,
+                       "WORD",
+                       wrapped(joinWords(all, "; "), helpWidth),
+                       styleTable().front().word,
+                       words};
+    row.set = [words](PictureSettings& to, const Values& values) {
+        to.picture.style = findStyle(values.back());
+        if (!to.picture.style)
+            wrongValue("style", joinWords(words, ", "), values.back(),
+                       didYouMean(values.back(), words));
+    };
+    return row;
 }
 
 /// A note between places in space.
 PictureSetting noteSetting(const char* name, const char* value, const char* text,
                            NoteText (*parse)(const std::string& text))
 {
-    return {
-        name, value, text, "", holds::Pixels, {}, [=](PictureSettings& to, const Values& values) {
-            for (const std::string& one : values) {
-                const NoteText note = parse(one);
-                const auto from = placeIn(note.places.front());
-                const auto end = placeIn(note.places.back());
-                if (!from || !end)
-                    wrongValue(name, std::string(value) + " within 1e6 Å of the origin", one);
-                if (note.places.size() > 1 && *from == *end) wrongValue(name, "two places", one);
-                to.picture.notes.push_back({*from, {}, note.text});
-                if (note.places.size() > 1) to.picture.notes.back().to = *end;
-            }
-        }};
+    return rulesRow<PictureSettings>(
+        {name, value, text}, [=](PictureSettings& to, const std::string& one) {
+            const NoteText note = parse(one);
+            const auto from = placeIn(note.places.front());
+            const auto end = placeIn(note.places.back());
+            if (!from || !end)
+                wrongValue(name, std::string(value) + " within 1e6 Å of the origin", one);
+            if (note.places.size() > 1 && *from == *end) wrongValue(name, "two places", one);
+            to.picture.notes.push_back({*from, {}, note.text});
+            if (note.places.size() > 1) to.picture.notes.back().to = *end;
+        });
 }
 
 } // namespace
@@ -242,40 +234,44 @@ bool PictureSettings::drawsLegend() const
 
 const std::vector<PictureSetting>& pictureSettings()
 {
-    static const std::vector<PictureSetting> all = {
-        viewSetting(),
-        uprightSetting(),
-        numberRow<PictureSettings>(
-            {"turn", "A", "turned by so many degrees about the upright", "0"}, holds::Views,
-            {-1e9, 1e9, "a number of degrees"}, MOLSURF_OF(picture.turn)),
-        sizeSetting(),
-        backgroundSetting(),
-        plainColorSetting(),
-        styleSetting(),
-        opacitySetting(),
-        switchRow<PictureSettings>("all-walls",
-                                   "`opacity` shows what is behind the nearest wall, too",
-                                   holds::Pixels, MOLSURF_OF(picture.allWalls)),
-        numberRow<PictureSettings>({"clip", "D",
-                                    "cuts away what is nearer to the eye than the middle\n"
-                                    "by more than D Å, and shows the inside",
-                                    ""},
-                                   holds::Pixels, {-1e6, 1e6, "a number of Å"},
-                                   MOLSURF_OF(picture.clip)),
-        switchRow<PictureSettings>("depth-cue", "distant parts fade to the background",
-                                   holds::Pixels, MOLSURF_OF(picture.depthCue)),
-        wordRow<PictureSettings>(
-            "legend", "on or off; auto: beside colours, if 600 pixels wide\nor more", holds::Pixels,
-            std::vector{LegendChoice::Auto, LegendChoice::On, LegendChoice::Off},
-            MOLSURF_OF(legend), {{"yes true 1 show", "on"}, {"no false 0 none hide", "off"}}),
-        noteSetting("label", "X,Y,Z=TEXT", "a text at a place; repeats", labelText),
-        noteSetting("ruler", "X,Y,Z..X,Y,Z", "a line between two places with its length; repeats",
-                    rulerText),
-        switchRow<PictureSettings>("scale-bar", "a bar below the picture that shows a length",
-                                   holds::Pixels, MOLSURF_OF(scaleBar)),
-        numberRow<PictureSettings>(
-            {"dpi", "N", "pixels an inch when it is printed; `size` stays", ""}, holds::Pixels,
-            {1.0, 10000.0, "a number from 1 to 10000"}, MOLSURF_OF(picture.dpi))};
+    static const std::vector<PictureSetting> all = [] {
+        std::vector<PictureSetting> rows = {
+            viewSetting(),
+            uprightSetting(),
+            shownIn(holds::Views,
+                    numberRow<PictureSettings>(
+                        {"turn", "A", "turned by so many degrees about the upright", "0"},
+                        {-1e9, 1e9, "a number of degrees"}, MOLSURF_OF(picture.turn))),
+            sizeSetting(),
+            backgroundSetting(),
+            plainColorSetting(),
+            styleSetting(),
+            opacitySetting(),
+            switchRow<PictureSettings>("all-walls",
+                                       "`opacity` shows what is behind the nearest wall, too",
+                                       MOLSURF_OF(picture.allWalls)),
+            numberRow<PictureSettings>({"clip", "D",
+                                        "cuts away what is nearer to the eye than the middle\n"
+                                        "by more than D Å, and shows the inside"},
+                                       {-1e6, 1e6, "a number of Å"}, MOLSURF_OF(picture.clip)),
+            switchRow<PictureSettings>("depth-cue", "distant parts fade to the background",
+                                       MOLSURF_OF(picture.depthCue)),
+            wordRow<PictureSettings>(
+                "legend", "on or off; auto: beside colours, if 600 pixels wide\nor more",
+                std::vector{LegendChoice::Auto, LegendChoice::On, LegendChoice::Off},
+                MOLSURF_OF(legend), {{"yes true 1 show", "on"}, {"no false 0 none hide", "off"}}),
+            noteSetting("label", "X,Y,Z=TEXT", "a text at a place; repeats", labelText),
+            noteSetting("ruler", "X,Y,Z..X,Y,Z",
+                        "a line between two places with its length; repeats", rulerText),
+            switchRow<PictureSettings>("scale-bar", "a bar below the picture that shows a length",
+                                       MOLSURF_OF(scaleBar)),
+            numberRow<PictureSettings>(
+                {"dpi", "N", "pixels an inch when it is printed; `size` stays"},
+                {1.0, 10000.0, "a number from 1 to 10000"}, MOLSURF_OF(picture.dpi))};
+        for (PictureSetting& row : rows)
+            if (row.shownIn == 0) row.shownIn = holds::Pixels;
+        return rows;
+    }();
     return all;
 }
 

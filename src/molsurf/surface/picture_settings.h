@@ -8,7 +8,7 @@
 #include "molsurf/options.h"
 #include "molsurf/show/color/crisp_borders.h"
 #include "molsurf/show/picture/draw_mesh.h"
-#include "molsurf/surface/setting_row.h"
+#include "molsurf/surface/option_row.h"
 
 #include <functional>
 #include <memory>
@@ -35,7 +35,7 @@ struct PictureSettings {
 };
 
 /// An option of pictures. Labels and rulers add all of their values; of others the last one counts.
-using PictureSetting = SettingRow<PictureSettings>;
+using PictureSetting = OptionRow<PictureSettings>;
 
 /// All of them, in the order of help texts.
 const std::vector<PictureSetting>& pictureSettings();

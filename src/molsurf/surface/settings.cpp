@@ -9,8 +9,8 @@
 #include "molsurf/molecule/selection/radii.h"
 #include "molsurf/show/color/color_map.h"
 #include "molsurf/surface/field_table.h"
+#include "molsurf/surface/option_row.h"
 #include "molsurf/surface/product_table.h"
-#include "molsurf/surface/set_value.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,22 +24,26 @@ namespace
 
 using Values = std::vector<std::string>;
 
-// Rows by the type of their value. `of` gives the variable that the row sets:
-// MOLSURF_OF(options.voxel).
+/// The default of each.
+const Settings& presetSettings()
+{
+    static const Settings all;
+    return all;
+}
+
+// Rows whose values files store. checkOptions() checks the ranges of numbers.
 
 template<typename Of>
 Setting number(const char* name, const char* value, std::string text, const Of& of)
 {
-    const Settings preset;
-    Setting row{name, SettingType::Number, value, std::move(text), shortest(of(preset))};
+    Setting row{name, SettingType::Number, value, std::move(text), shortest(of(presetSettings()))};
     row.set = [=](Settings& s, const Values& v) {
         of(s) = parsedValue<double>(name, "a number", v.back());
     };
-    row.get = [=](const Settings& s) { return of(s); };
-    return row;
+    return stored(row, of);
 }
 
-/// The row of a number with its range, which checkOptions() checks.
+/// The row of a number with its range.
 Setting within(double low, double high, Setting row)
 {
     row.low = low;
@@ -53,61 +57,40 @@ Setting count(const char* name, const char* value, std::string text, const char*
               std::pair<int, int> range, const Of& of)
 {
     const auto [low, high] = range;
-    Setting row{name, SettingType::Whole, value,       std::move(text), none,
-                {},   double(low),        double(high)};
-    row.set = countSetter(name, low, high, of);
+    Setting row = countRow<Settings>({name, value, std::move(text), none}, low, high, of);
     row.get = [=](const Settings& s) -> SettingValue {
         const std::optional<int> given = of(s);
         return given ? std::to_string(*given) : std::string(none);
     };
-    return row;
+    return within(low, high, row);
 }
 
 /// @param[in] on  what the switch sets
 template<typename Of, typename T = bool>
 Setting flag(const char* name, std::string text, const Of& of, T on = T(true))
 {
-    Setting row{name, SettingType::Switch, nullptr, std::move(text), ""};
-    row.set = [=](Settings& s, const Values&) { of(s) = on; };
-    row.get = [=](const Settings& s) { return of(s) == on; };
-    return row;
+    return stored(switchRow<Settings>(name, std::move(text), of, on),
+                  [=](const Settings& s) { return of(s) == on; });
 }
 
 /// @param[in] none  what an empty text means
 template<typename Of>
 Setting text(const char* name, const char* value, std::string help, const char* none, const Of& of)
 {
-    const Settings preset;
-    Setting row{name, SettingType::Text, value, std::move(help),
-                of(preset).empty() ? none : of(preset)};
-    row.set = [=](Settings& s, const Values& v) { of(s) = v.back(); };
-    row.get = [=](const Settings& s) { return of(s).empty() ? none : of(s); };
-    return row;
+    const auto shown = [=](const Settings& s) { return of(s).empty() ? none : of(s); };
+    return stored(textRow<Settings>({name, value, std::move(help), shown(presetSettings())}, of),
+                  shown);
 }
 
-/// The value of a text, which textOf() gives back.
-/// @param[in] none  the text of no value
-template<typename Of, typename Parse>
-Setting parsed(const char* name, const char* value, std::string help, const char* none,
-               const Of& of, const Parse& parse)
-{
-    Setting row{name, SettingType::Text, value, std::move(help), none};
-    row.set = [=](Settings& s, const Values& v) { of(s) = parse(v.back()); };
-    row.get = [=](const Settings& s) { return of(s) ? textOf(*of(s)) : none; };
-    return row;
-}
-
-/// One of a few values that nameOf() names.
+/// One of a few values that nameOf() names, the first of them the default.
 template<typename Of, typename Enum>
 Setting word(const char* name, const char* value, std::string help, const Of& of,
              const std::vector<Enum>& choices)
 {
-    const Settings preset;
-    Setting row{name, SettingType::Word, value, std::move(help), nameOf(of(preset))};
-    for (const Enum choice : choices) row.words.push_back(nameOf(choice));
-    row.set = wordSetter(name, choices, of);
-    row.get = [=](const Settings& s) { return std::string(nameOf(of(s))); };
-    return row;
+    Setting row = wordRow<Settings>(name, std::move(help), choices, of);
+    row.value = value;
+    row.preset = nameOf(of(presetSettings()));
+    return stored(row, [=](const Settings& s) { return std::string(nameOf(of(s))); });
 }
 
 bool evolves(const KindRow& kind)
@@ -120,14 +103,6 @@ Setting onlyOf(bool (*such)(const KindRow&), Setting row)
 {
     for (const KindRow& kind : kindTable())
         if (such(kind)) row.kinds.push_back(kind.kind);
-    return row;
-}
-
-/// A row with more than its type says.
-template<typename Change>
-Setting changed(Setting row, const Change& change)
-{
-    change(row);
     return row;
 }
 
@@ -259,13 +234,13 @@ std::vector<Setting> atomSettings()
     return {
         text("select", "EXPR", "atoms: \"chain A and resid 5-9\" or \"/1/A/5-9|*;polymer\"", "all",
              of(&SelectOptions::select)),
-        changed(count("model", "N", "number of the model in the file", "the first", {1, 1000000000},
-                      of(&SelectOptions::model)),
-                [](Setting& row) {
-                    row.get = [](const Settings& s) {
-                        return s.atoms.model ? std::to_string(s.atoms.model) : "first";
-                    };
-                }),
+        with(count("model", "N", "number of the model in the file", "the first", {1, 1000000000},
+                   of(&SelectOptions::model)),
+             [](Setting& row) {
+                 row.get = [](const Settings& s) {
+                     return s.atoms.model ? std::to_string(s.atoms.model) : "first";
+                 };
+             }),
         assemblySetting(),
         flag("instances",
              "the surface of each distinct copy of the assembly once:\n"
@@ -287,16 +262,16 @@ std::vector<Setting> atomSettings()
              of(&SelectOptions::hetero), Hetero::All),
         flag("no-hetero", "drop all ligands and ions", of(&SelectOptions::hetero), Hetero::None),
         flag("waters", "keep waters", of(&SelectOptions::waters)),
-        changed(flag("charges", "the charges of all atoms come along, for the files of APBS",
-                     MOLSURF_OF(labels.charges)),
-                [](Setting& row) { row.get = nullptr; }), // files of APBS alone have them
-        changed(text("radii", "SET", "van der Waals radii: a name of `listRadii`, or a file", "",
-                     of(&SelectOptions::radii)),
-                [](Setting& row) {
-                    row.file = [](const std::string& value) {
-                        return isRadiiSet(value) ? std::string::npos : 0;
-                    };
-                }),
+        with(flag("charges", "the charges of all atoms come along, for the files of APBS",
+                  MOLSURF_OF(labels.charges)),
+             [](Setting& row) { row.get = nullptr; }), // files of APBS alone have them
+        with(text("radii", "SET", "van der Waals radii: a name of `listRadii`, or a file", "",
+                  of(&SelectOptions::radii)),
+             [](Setting& row) {
+                 row.file = [](const std::string& value) {
+                     return isRadiiSet(value) ? std::string::npos : 0;
+                 };
+             }),
         maxInput};
 }
 
@@ -367,13 +342,13 @@ std::vector<Setting> surfaceSettings()
                       number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
                              MOLSURF_OF(options.blobbiness)))),
         flag("fill-cavities", "drop the inner walls", MOLSURF_OF(options.fillCavities)),
-        changed(number("min-wall", "W", "thicken what is thinner than W Å, for a print",
-                       MOLSURF_OF(options.minWall)),
-                [](Setting& row) {
-                    row.preset = "";
-                    row.set = numberSetter("min-wall", 1e-300, maxWall, "above 0, up to 100 Å",
-                                           MOLSURF_OF(options.minWall));
-                }),
+        with(number("min-wall", "W", "thicken what is thinner than W Å, for a print",
+                    MOLSURF_OF(options.minWall)),
+             [](Setting& row) {
+                 row.preset = "";
+                 row.set = numberSetter("min-wall", 1e-300, maxWall, "above 0, up to 100 Å",
+                                        MOLSURF_OF(options.minWall));
+             }),
         fieldSetting(),
         flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
              MOLSURF_OF(options.halfFloats)),
@@ -452,14 +427,13 @@ Setting matchSetting()
 
 std::vector<Setting> resolutionSettings()
 {
-    Setting resolution{"resolution", SettingType::Rules, "[SEL=]D",
-                       "blur to D [Å], 1 to 50, all atoms or those of a\n"
-                       "selection; repeats, later ones win",
-                       ""};
-    resolution.set = [](Settings& s, const Values& values) {
-        for (const std::string& value : values)
-            s.atoms.resolutions.push_back(parseResolution(value));
-    };
+    Setting resolution =
+        rulesRow<Settings>({"resolution", "[SEL=]D",
+                            "blur to D [Å], 1 to 50, all atoms or those of a\n"
+                            "selection; repeats, later ones win"},
+                           [](Settings& s, const std::string& value) {
+                               s.atoms.resolutions.push_back(parseResolution(value));
+                           });
     resolution.get = [](const Settings& s) {
         Values all;
         for (const ResolutionRule& rule : s.atoms.resolutions)
@@ -467,17 +441,15 @@ std::vector<Setting> resolutionSettings()
                           shortest(rule.resolution));
         return joinWords(all, ", ");
     };
-    Setting coarse{"coarse",
-                   SettingType::Rules,
-                   "[SEL=]WORD",
-                   "beads in the place of atoms: residue (its backbone and\n"
-                   "side chain), N (about N atoms each) or atom; all or\n"
-                   "those of a selection; repeats, later ones win",
-                   "atom",
-                   {"atom", "residue"}};
-    coarse.set = [](Settings& s, const Values& values) {
-        for (const std::string& value : values) s.atoms.coarse.push_back(parseCoarse(value));
-    };
+    Setting coarse = rulesRow<Settings>({"coarse", "[SEL=]WORD",
+                                         "beads in the place of atoms: residue (its backbone and\n"
+                                         "side chain), N (about N atoms each) or atom; all or\n"
+                                         "those of a selection; repeats, later ones win",
+                                         "atom"},
+                                        [](Settings& s, const std::string& value) {
+                                            s.atoms.coarse.push_back(parseCoarse(value));
+                                        });
+    coarse.words = {"atom", "residue"};
     coarse.get = [](const Settings& s) {
         Values all;
         for (const CoarseRule& rule : s.atoms.coarse) all.push_back(nameOf(rule));
@@ -677,14 +649,12 @@ std::vector<Setting> coloringSettings()
 
 std::vector<Setting> groupSettings()
 {
-    Setting surfaceOf{"surface-of", SettingType::Rules, "GROUP=KIND",
-                      "this group alone, by another `surface`; repeats; the\n"
-                      "other atoms together",
-                      ""};
-    surfaceOf.set = [](Settings& s, const Values& values) {
-        for (const std::string& value : values)
-            s.options.surfaceOf.push_back(parseSurfaceOf(value));
-    };
+    Setting surfaceOf = rulesRow<Settings>({"surface-of", "GROUP=KIND",
+                                            "this group alone, by another `surface`; repeats; the\n"
+                                            "other atoms together"},
+                                           [](Settings& s, const std::string& value) {
+                                               s.options.surfaceOf.push_back(parseSurfaceOf(value));
+                                           });
     surfaceOf.get = [](const Settings& s) {
         Values all;
         for (const auto& [name, kind] : s.options.surfaceOf)
@@ -703,16 +673,21 @@ std::vector<Setting> groupSettings()
         s.options.split = true;
     };
     split.get = [](const Settings& s) { return std::string(s.options.split ? "group" : "none"); };
-    Setting groupBy =
-        parsed("group-by", "WORD",
-               "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead", "",
-               MOLSURF_OF(labels.groupBy), parseGroupBy);
+    Setting groupBy{
+        "group-by", SettingType::Text, "WORD",
+        "groups by chain, entity, class (a chain's copies),\ncopy or residues:N instead", ""};
+    groupBy.set = [](Settings& s, const Values& values) {
+        s.labels.groupBy = parseGroupBy(values.back());
+    };
+    groupBy.get = [](const Settings& s) {
+        return s.labels.groupBy ? textOf(*s.labels.groupBy) : std::string();
+    };
     groupBy.words = {"chain", "entity", "class", "copy"};
     groupBy.of = SettingOf::Molecule;
     return {groupBy, split, surfaceOf,
-            changed(flag("interfaces", "buried areas between groups, for the report",
-                         MOLSURF_OF(options.interfaces)),
-                    [](Setting& row) { row.get = nullptr; }),
+            with(flag("interfaces", "buried areas between groups, for the report",
+                      MOLSURF_OF(options.interfaces)),
+                 [](Setting& row) { row.get = nullptr; }),
             colorSetting()};
 }
 
@@ -804,11 +779,11 @@ std::vector<Setting> flowSettings()
                of(&EvolveOptions::tolerance))};
     for (Setting& row : rows) row = onlyOf(evolves, std::move(row));
     rows.push_back(
-        changed(count("spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2", "0",
-                      {0, 2}, MOLSURF_OF(options.splineLevel)),
-                [](Setting& row) {
-                    row.get = [](const Settings& s) { return std::int64_t(s.options.splineLevel); };
-                }));
+        with(count("spline-level", "L", "spline on voxels of 2^L times the edge; 0, 1 or 2", "0",
+                   {0, 2}, MOLSURF_OF(options.splineLevel)),
+             [](Setting& row) {
+                 row.get = [](const Settings& s) { return std::int64_t(s.options.splineLevel); };
+             }));
     return rows;
 }
 

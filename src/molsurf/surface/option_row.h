@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+/// @file
+/// Rows of options by the type of their value. `of` gives the variable of a target that a row sets:
+/// MOLSURF_OF(options.voxel).
+
+#include "molsurf/kernel/core/strings.h"
+#include "molsurf/settings.h"
+#include "molsurf/surface/set_value.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace molsurf
+{
+
+/// The texts of a row.
+struct RowTexts {
+    const char *name, *value;
+    std::string text, preset = "";
+};
+
+/// The numbers that a row takes, also in words.
+struct NumberRange {
+    double low, high;
+    const char* words;
+};
+
+/// The row of a number in a range.
+template<typename To, typename Of>
+OptionRow<To> numberRow(RowTexts texts, const NumberRange& range, const Of& of)
+{
+    return {texts.name,
+            SettingType::Number,
+            texts.value,
+            std::move(texts.text),
+            std::move(texts.preset),
+            {},
+            numberSetter(texts.name, range.low, range.high, range.words, of)};
+}
+
+/// The row of a whole number in a range.
+template<typename To, typename Of>
+OptionRow<To> countRow(RowTexts texts, int low, int high, const Of& of)
+{
+    return {texts.name,
+            SettingType::Whole,
+            texts.value,
+            std::move(texts.text),
+            std::move(texts.preset),
+            {},
+            countSetter(texts.name, low, high, of)};
+}
+
+/// The row of a switch.
+/// @param[in] on  what it sets
+template<typename To, typename Of, typename T = bool>
+OptionRow<To> switchRow(const char* name, std::string text, const Of& of, T on = T(true))
+{
+    return {name,
+            SettingType::Switch,
+            nullptr,
+            std::move(text),
+            "",
+            {},
+            [of, on](To& to, const std::vector<std::string>&) { of(to) = on; }};
+}
+
+/// The row of any text.
+template<typename To, typename Of>
+OptionRow<To> textRow(RowTexts texts, const Of& of)
+{
+    return {texts.name,
+            SettingType::Text,
+            texts.value,
+            std::move(texts.text),
+            std::move(texts.preset),
+            {},
+            [of](To& to, const std::vector<std::string>& values) { of(to) = values.back(); }};
+}
+
+/// The row of one of a few values that nameOf() names, the first of them the default.
+template<typename To, typename Of, typename Enum>
+OptionRow<To> wordRow(const char* name, std::string text, const std::vector<Enum>& choices,
+                      const Of& of, const std::vector<Synonyms>& others = {})
+{
+    std::vector<std::string> words;
+    for (const Enum choice : choices) words.push_back(nameOf(choice));
+    return {name,
+            SettingType::Word,
+            "WORD",
+            std::move(text),
+            words.front(),
+            words,
+            wordSetter(name, choices, of, others)};
+}
+
+/// The row of values that a parser reads one by one.
+/// @param[in] parse  changes the target by one of them
+template<typename To, typename Parse>
+OptionRow<To> rulesRow(RowTexts texts, const Parse& parse)
+{
+    return {texts.name,
+            SettingType::Rules,
+            texts.value,
+            std::move(texts.text),
+            std::move(texts.preset),
+            {},
+            [parse](To& to, const std::vector<std::string>& values) {
+                for (const std::string& value : values) parse(to, value);
+            }};
+}
+
+/// The row with the formats that show it.
+template<typename Row>
+Row shownIn(unsigned formats, Row row)
+{
+    row.shownIn = formats;
+    return row;
+}
+
+/// The row with its value stored in files.
+template<typename To, typename Of>
+OptionRow<To> stored(OptionRow<To> row, const Of& of)
+{
+    row.get = [of](const To& from) { return SettingValue(of(from)); };
+    return row;
+}
+
+/// The row with more than its type says.
+template<typename Row, typename Change>
+Row with(Row row, const Change& change)
+{
+    change(row);
+    return row;
+}
+
+/// The row of a file that is read, whose path is its value.
+template<typename Row>
+Row ofFile(Row row)
+{
+    row.file = [](const std::string&) { return std::size_t(0); };
+    return row;
+}
+
+/// The row of a name; null: there is none.
+template<typename To>
+const OptionRow<To>* findRow(const std::vector<OptionRow<To>>& rows, const std::string& name)
+{
+    for (const OptionRow<To>& row : rows)
+        if (row.name == name) return &row;
+    return nullptr;
+}
+
+} // namespace molsurf
