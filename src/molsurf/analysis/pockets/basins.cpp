@@ -192,6 +192,7 @@ private:
         }
     };
 
+    /// The edges, exits and arcs at which parts meet, the widest first.
     std::priority_queue<Meeting> meetings() const
     {
         std::priority_queue<Meeting> out;

@@ -386,6 +386,7 @@ FoundWays waysAlongBest(const VoidGraph& graph, const Rooms& rooms, const std::v
     return out;
 }
 
+/// The ways through the molecule along an axis; along the best of the principal ones if it is 0.
 FoundWays waysAlong(const std::vector<Ball>& balls, const Vec3d& axis, const Progress& progress)
 {
     const bool given = axis.lengthSqr() > 0.0;

@@ -191,6 +191,8 @@ private:
         Vec3d moment{0.0}, wallMoment{0.0};
     };
 
+    /// The part of a tetrahedron that the probe reaches below the cut: its volume and moment, its
+    /// mouth, where the cut ends it, and its wall, where the reach ends.
     static Measure measureOf(const Tetrahedron& p)
     {
         Measure out;
@@ -233,6 +235,8 @@ private:
         }
     }
 
+    /// Shares a face of the mouth among the basins of its corners, by the number of corners.
+    /// @param[in] n, v  leaf and voxel of the cell
     void addMouth(std::size_t n, int v, const std::vector<const CellCorner*>& corners, double area,
                   LeafShare& out) const
     {
@@ -269,6 +273,7 @@ private:
 class Mouths
 {
 public:
+    /// Joins the pieces of mouths that have a voxel in common.
     explicit Mouths(const std::vector<LeafShare>& leaves)
     {
         for (const LeafShare& leaf : leaves)
@@ -312,6 +317,7 @@ private:
 class Passages
 {
 public:
+    /// Widest ways by Dijkstra's algorithm, from the deepest voxel of each basin to its mouths.
     Passages(const VoidField& space, const Basins& basins, const Mouths& mouths)
         : space_(space), narrowest_(space.table.size() * leafSize, none),
           ofMouth_(mouths.count(), none)

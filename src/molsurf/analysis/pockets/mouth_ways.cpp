@@ -50,6 +50,7 @@ std::vector<BasinPart> partsOf(const RoomBasins& split)
 class PartWays
 {
 public:
+    /// Searches from the widest place of the part.
     PartWays(const VoidGraph& graph, const BasinPart& part) : part_(part)
     {
         for (const std::int32_t e : part.edges)

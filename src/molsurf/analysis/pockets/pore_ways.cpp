@@ -29,6 +29,7 @@ using Ending = std::function<std::uint8_t(const Vec3d&, double)>;
 class Outline
 {
 public:
+    /// The convex hull of the centres seen along the axis, and the ends of the balls along it.
     Outline(const std::vector<Ball>& balls, const Vec3d& axis)
         : axis_(axis), across_(perpendicular(axis))
     {
@@ -111,6 +112,8 @@ public:
         flags_[std::size_t(roomOf(node))] |= flag;
     }
 
+    /// Joins rooms over passages, the widest first. A way is found where a room comes to reach both
+    /// ends. Passages below `least` [Å] end the search once there is a way.
     std::vector<VoidWay> run(double least)
     {
         std::vector<VoidWay> out;
@@ -363,6 +366,8 @@ private:
 class WidestTree
 {
 public:
+    /// The maximum spanning tree by clearance (Kruskal), and the steps in it from the outside.
+    /// Necks that close a loop with the outside are kept apart.
     explicit WidestTree(const VoidGraph& graph)
         : graph_(graph), parent_(graph.nodes.size()), back_(graph.nodes.size(), VoidGraph::none)
     {

@@ -350,6 +350,8 @@ private:
         return node;
     }
 
+    /// Adds the edge on which a probe rolls along three balls, from a node to where the curve ends,
+    /// with the narrowest place on it.
     void addEdge(std::int32_t from, const Triple& own, const VoidCurve& curve, const Start& start,
                  const Stop& stop)
     {

@@ -88,6 +88,8 @@ public:
         for (std::size_t n = 0; n < free_.size(); ++n) place_[free_[n]] = std::int32_t(n);
     }
 
+    /// Takes Newton steps until each bead has its volume.
+    /// @throws Error(ErrorKind::Numeric) if they do not converge
     void solve()
     {
         start();

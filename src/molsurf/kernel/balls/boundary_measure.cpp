@@ -241,6 +241,7 @@ struct SideLists {
     std::vector<Side> sides;
     std::vector<std::uint32_t> begins; // of each patch, and the end of all
 
+    /// Sorts the two sides of each arc by their patches (counting sort).
     explicit SideLists(const BallBoundary& boundary) : begins(boundary.patches.size() + 1)
     {
         std::vector<std::uint32_t> patchOf(boundary.balls.size());

@@ -67,6 +67,7 @@ private:
     std::vector<Vec3d> outer_;
 };
 
+/// A cube about the sphere.
 PowerCell::PowerCell(double radius) : radius_(radius)
 {
     const double half = 1.01 * radius;
@@ -97,6 +98,7 @@ bool PowerCell::touches(const Vec3d& normal, double height) const
                        [&](const Vertex& v) { return v.x.dot(normal) > height - tolerance; });
 }
 
+/// Keeps the part of the polyhedron with x . normal <= height.
 void PowerCell::cut(const Vec3d& normal, double height)
 {
     // An edge, two planes, has two vertices: those met once among what goes are cut.
@@ -138,6 +140,7 @@ void PowerCell::cut(const Vec3d& normal, double height)
     findOuterPoints();
 }
 
+/// The vertices outside the sphere, and the points where edges leave it.
 void PowerCell::findOuterPoints()
 {
     // Let s be a point of the sphere in the polyhedron. Beyond the plane that touches the sphere in

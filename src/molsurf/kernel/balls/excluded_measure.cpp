@@ -310,6 +310,7 @@ struct Parts {
     bool fits = true;
 };
 
+/// Adds the contact faces: the faces of the accessible surface, drawn in by the probe.
 void addContacts(const BallBoundary& boundary, const BoundaryMeasure& measure, double probe,
                  Parts& all, ExcludedMeasure& out)
 {
@@ -380,6 +381,7 @@ void addTori(const BallBoundary& boundary, const BoundaryMeasure& measure, doubl
     }
 }
 
+/// Adds the concave faces, parts of probes at rest on three balls, and checks their areas.
 void addConcave(const BallBoundary& boundary, const ProbeCorners& corners, double probe,
                 const Progress& progress, Parts& all, ExcludedMeasure& out)
 {

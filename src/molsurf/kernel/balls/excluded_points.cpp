@@ -64,6 +64,8 @@ void addContact(const BallBoundary& boundary, const Patch& patch, double probe,
     }
 }
 
+/// Adds points of the toric face of an arc, in rings of about `density` points an Å^2. A face that
+/// meets itself has two bands.
 void addToric(const BallBoundary& boundary, const Arc& arc, double probe, double density,
               ExcludedPoints& out)
 {

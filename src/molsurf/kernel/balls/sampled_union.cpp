@@ -68,6 +68,7 @@ struct Nearby {
     std::vector<std::size_t> numbers; ///< in the caller's balls
 };
 
+/// The balls, grown by so much, that may reach a point.
 Nearby ballsNear(const RepeatedBalls& balls, double grown, const std::vector<Point>& points)
 {
     const double edge = std::max(largestRadius(balls.distinct()) + grown, 1.0);

@@ -16,6 +16,8 @@ struct Utf8 {
     unsigned code = 0;
     std::size_t bytes = 0; ///< 0: the byte there begins none
 
+    /// Decodes the character that begins at a byte. Overlong forms, surrogates and codes above
+    /// 0x10ffff are none.
     Utf8(const std::string& text, std::size_t at)
     {
         const auto byte = [&](std::size_t i) {

@@ -194,6 +194,7 @@ std::uint64_t spreadFull(const Planes& p)
 struct Extent {
     int low[3], high[3];
 
+    /// The box of the active voxels of a mask that has some.
     explicit Extent(const LeafMask& mask)
     {
         std::uint64_t all = 0;

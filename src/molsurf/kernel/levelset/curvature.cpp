@@ -14,6 +14,9 @@ namespace
 
 constexpr float tiny = 1e-12f; // keeps divisions finite where the gradient vanishes
 
+/// Normal, slope, mean and Gaussian curvature by central differences at the active voxels of a
+/// leaf.
+/// @param[in] inverse  1/h
 MOLSURF_KERNEL void curvatureRows(const float* __restrict block, const LeafMask& active,
                                   float inverse, float* __restrict nx, float* __restrict ny,
                                   float* __restrict nz, float* __restrict slope,

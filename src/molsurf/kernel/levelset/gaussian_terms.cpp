@@ -100,6 +100,7 @@ struct Halves {
     }
 };
 
+/// Bounds of the exponents of all terms in the octants of a leaf.
 MOLSURF_KERNEL void boundBy8(const GaussianTerms& t, GaussianBounds& bounds)
 {
     Floats top = splat(GaussianTerms::noExponent), floor[octants];

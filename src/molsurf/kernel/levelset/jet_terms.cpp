@@ -28,6 +28,7 @@ struct JetColumns {
     std::size_t count;
 };
 
+/// Adds up the terms e^t, t = level - rate |x - c|^2, with their first and second derivatives.
 MOLSURF_KERNEL void sumJetTerms(const JetColumns& list, double x, double y, double z,
                                 JetSums& __restrict out)
 {

@@ -62,6 +62,7 @@ MOLSURF_INLINE SplineJet jetAcross(const Corners& c, const float* t)
     return splineJet(row, t);
 }
 
+/// The jet of a point whose stencil crosses leaves; the column of rows is a template argument.
 MOLSURF_KERNEL void evaluateAcross(const Corners& c, const float* t, float scale, int lane,
                                    JetLanes& jets)
 {

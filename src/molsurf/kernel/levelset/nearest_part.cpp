@@ -295,6 +295,7 @@ struct Cone {
     Vec3f axis;
     float cosine, sine; // of half its angle, at most a right one
 
+    /// The cone of the directions from an apex to a ball.
     Cone(const Vec3f& centre, float radius, const Vec3f& apex)
     {
         axis = centre - apex;
@@ -413,6 +414,7 @@ MOLSURF_INLINE void offerCorner(const PartList& l, std::size_t i, const Places& 
     best.offer(s.y * s.y + s.z * s.z + s.x * s.x, l.part[i], {-s.x, -s.y, -s.z}, Floats{});
 }
 
+/// Offers the nearest point of a circle's arc to voxels, where it lies between the arc's ends.
 MOLSURF_INLINE void offerArc(const PartList& l, std::size_t i, const Places& at, Nearest& best)
 {
     const float axis[3] = {l.numbers[AxisX][i], l.numbers[AxisY][i], l.numbers[AxisZ][i]};
@@ -432,6 +434,7 @@ MOLSURF_INLINE void offerArc(const PartList& l, std::size_t i, const Places& at,
         -off / (radius * squareRoot(larger(d2, splat(1e-12f)))));
 }
 
+/// Offers the nearest point of a ball to voxels, where no cap covers it.
 MOLSURF_INLINE void offerPatch(const PartList& l, const CapLists& caps, std::size_t i,
                                const Places& at, Nearest& best)
 {

@@ -205,6 +205,7 @@ public:
     }
 
 private:
+    /// The voxels of a leaf beside which the distance has a kink, between voxels of this leaf.
     LeafMask kinksWithin(const Coord& origin, const LeafFeet& feet, const LeafMask& active) const
     {
         const KinkMasks found = findKinks(feet, float(voxel_), std::int32_t(tables_.patches()));
@@ -236,6 +237,7 @@ private:
     const PartTables tables_;
 };
 
+/// The signed distance to the boundary of balls in its band, and its kinks if they are wanted.
 DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
                     const Progress& progress, const openvdb::CoordBBox& box, Kinks wanted)
 {

@@ -156,6 +156,8 @@ private:
         return m;
     }
 
+    /// Adds the integrals over the surface above a triangle. What does not converge is split at the
+    /// point of the surface above its middle, at last taken as flat.
     void addPatch(const Point& a, const Point& b, const Point& c, int splits)
     {
         patch_[0] = a;

@@ -33,6 +33,7 @@ struct Extremes {
     }
 };
 
+/// The least angle of a triangle, by its cosine, and its shortest and longest edge.
 Extremes extremesOf(const Mesh& mesh, std::size_t triangle)
 {
     static const double of20 = std::cos(20.0 * M_PI / 180.0), of28 = std::cos(28.0 * M_PI / 180.0);

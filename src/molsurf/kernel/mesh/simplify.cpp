@@ -32,6 +32,7 @@ struct Edge {
 class Thinner
 {
 public:
+    /// Queues all edges, the shortest first.
     explicit Thinner(const Mesh& mesh)
         : mesh_(mesh), triangles_(mesh.triangles), alive_(mesh.positions.size(), 1),
           refused_(mesh.positions.size(), 0), left_(mesh.positions.size()),
@@ -47,6 +48,7 @@ public:
         }
     }
 
+    /// Removes one end of an edge after another until so many vertices are left.
     void run(std::size_t wanted, const Progress& progress)
     {
         for (std::size_t n = 0; left_ > wanted && !queue_.empty(); ++n) {

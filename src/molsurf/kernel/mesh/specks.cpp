@@ -113,6 +113,7 @@ struct ShallowVoxels {
     std::size_t inside = 0;   // those with S < 0 within a voxel
 };
 
+/// The voxels of leaf n within `deep` of the interface, none of whose six neighbours is deeper.
 ShallowVoxels shallowVoxels(const SparseField& S, std::size_t n, float deep)
 {
     using Block = LeafBlock<float, 1>;

@@ -117,6 +117,8 @@ std::vector<float> placesInChains(const Structure& structure)
 /// Values by chain, number, insertion code and perhaps name of an atom.
 using Table = std::map<std::tuple<std::string, int, char, std::string>, float>;
 
+/// Lines of chain, residue number and perhaps atom, in words or by commas, with the value last.
+/// Lines without a number, as a heading, are left out.
 Table readTable(const std::string& path, std::size_t maxBytes)
 {
     const std::string text = loadText(path, maxBytes);
@@ -165,6 +167,7 @@ Table readTable(const std::string& path, std::size_t maxBytes)
     return out;
 }
 
+/// Gives each ball the value of its atom, or else of its residue, and warns of unused lines.
 void fillFromTable(const Structure& structure, const std::vector<Ball>& balls,
                    const std::string& path, std::size_t maxBytes, BallValues& out,
                    std::vector<std::string>& warnings)

@@ -86,6 +86,8 @@ private:
         return std::size_t(ruleOf_[std::size_t(balls_[ball].atom)]);
     }
 
+    /// Makes the beads of a residue: waters whole, ligands cut into parts, backbone and side chain
+    /// of others.
     void addResidue(std::int32_t index, const Members& members)
     {
         const Residue& residue = structure_.residues[std::size_t(index)];

@@ -41,6 +41,7 @@ CopyChoice copiesOf(const std::string& group, const std::string& text)
     }
 }
 
+/// Groups of {"groups": [{"name": ..., "select": ..., "color": ...}, ...]}.
 std::vector<GroupRule> readJson(const std::string& path, const std::string& text)
 {
     if (!isModestJson(text))
@@ -84,6 +85,7 @@ bool isEnd(std::string_view column)
            (column.size() <= longest && parseColor(std::string(column)).has_value());
 }
 
+/// Groups of lines NAME SELECTION [COLOUR].
 std::vector<GroupRule> readTable(const std::string& path, const std::string& text)
 {
     std::vector<GroupRule> rules;
@@ -125,6 +127,7 @@ std::vector<GroupRule> readTable(const std::string& path, const std::string& tex
     return rules;
 }
 
+/// The kind of a residue by its name.
 ResidueClass classOf(const std::string& name)
 {
     static const std::map<std::string, ResidueClass> classes = [] {

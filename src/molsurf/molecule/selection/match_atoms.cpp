@@ -22,6 +22,7 @@ bool hasNoResidues(const Structure& structure)
                        [](const Residue& r) { return r.name == "UNL" || r.name.empty(); });
 }
 
+/// Refuses a selection that matches nothing, with the chains of the file.
 [[noreturn]] void failEmpty(const Structure& structure, const std::string& expression,
                             const std::string& hint)
 {

@@ -233,6 +233,7 @@ private:
         }
     }
 
+    /// A name, in quotes or with the wildcards * and ?.
     NameGlob name()
     {
         const char quote = in_.peek();
@@ -319,6 +320,7 @@ private:
         return false;
     }
 
+    /// Residue numbers, as 5, 5-9, 5:9 or "5 to 9", joined by blanks, commas or plus signs.
     SubTree ranges()
     {
         std::vector<NumberRange> found;
@@ -464,6 +466,7 @@ private:
         return joinedBy<AllOf>(std::move(parts));
     }
 
+    /// What stands on either side of and and or.
     SubTree operand()
     {
         const auto depth = deeper();
@@ -502,6 +505,7 @@ private:
         return ValueReader(in_, structure_, property, word).read();
     }
 
+    /// An operand that begins with an operator: not, within, same as, byres, ...
     SubTree operation(const OperatorWord& word)
     {
         switch (word.does) {
@@ -528,6 +532,7 @@ private:
         return nearTo(word, reach, tree);
     }
 
+    /// "same residue as SELECTION", and words for it, as byres.
     SubTree sameAs(const OperatorWord& word)
     {
         const std::size_t begin = in_.at();
@@ -676,6 +681,8 @@ private:
         return true;
     }
 
+    /// A phrase of gemmi, as /1/A/5-9 or (HEM). A single unknown word is refused, since it is
+    /// rather a misspelt keyword than a chain.
     SubTree phrase()
     {
         const std::string text = phraseText();

@@ -89,6 +89,7 @@ double beadRadius(const Martini& martini, char size)
     return 0.5 * std::pow(2.0, 1.0 / 6.0) * martini.sigma[martiniSizes.find(size)];
 }
 
+/// Radii of beads. The n-th letter of a residue is the size of its n-th bead: BB, SC1, SC2, ...
 RadiiSet martiniSet(const Martini& martini)
 {
     RadiiSet set;
@@ -173,6 +174,7 @@ constexpr UnitedAtoms naccess{
     "naccess", "c 1.76 d 1.76 q 1.87 n 1.65 l 1.50 o 1.40 h 1.40 s 1.85 e 1.80 p 1.90",
     "c 1.80 d 1.80 q 1.80 n 1.60 l 1.60 o 1.40 h 1.40 s 1.85 e 1.80 p 1.90"};
 
+/// Radii of heavy atoms with their hydrogens, by the types of the atoms of each residue.
 RadiiSet unitedSet(const UnitedAtoms& united)
 {
     RadiiSet set;
@@ -247,6 +249,7 @@ RadiiSet gemmiSet()
     return set;
 }
 
+/// Adds a line ELEMENT RADIUS or RESIDUE ATOM RADIUS of a file.
 void addRule(RadiiSet& set, const Fields& fields, const std::string& place)
 {
     auto fail = [&](const std::string& what) { throw Error(ErrorKind::Input, place + what); };

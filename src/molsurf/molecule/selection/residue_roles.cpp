@@ -154,6 +154,8 @@ private:
         return out;
     }
 
+    /// Makes ligands and ions within reach of an atom parts of the molecule, and queues them, for
+    /// what they touch.
     void touch(std::size_t atom)
     {
         copies_.forEach(atom, [&](const openvdb::Vec3d& x) {

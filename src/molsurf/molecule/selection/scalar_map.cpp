@@ -183,6 +183,7 @@ std::size_t mrcWidth(int mode)
     }
 }
 
+/// A map in the format MRC2014 or CCP4, whose cell has right angles.
 ScalarMap mrcOf(const std::string& bytes, const std::string& path)
 {
     const MrcWords words(bytes);

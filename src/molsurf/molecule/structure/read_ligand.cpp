@@ -308,6 +308,8 @@ std::size_t nameLength(string_view text, std::size_t digits, const std::string& 
     return digits;
 }
 
+/// Residue name, number and insertion code of a substructure of mol2, whose name has them together,
+/// as ALA5, ALA-5 or ALA52A. `known` is the residue name elsewhere in the file.
 Substructure substructureOf(string_view id, string_view name, const std::string& known)
 {
     Substructure out;

@@ -49,6 +49,7 @@ void numberModels(Structure& structure)
                                      std::to_string(count));
 }
 
+/// Reads a text of a known format, unless it would take more than the memory there is.
 Structure parseAndCheck(StructureFormat format, std::string text, const std::string& path,
                         std::size_t memory, const Progress& progress)
 {

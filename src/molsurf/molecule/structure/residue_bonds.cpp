@@ -36,6 +36,7 @@ std::array<std::string, 2> sorted(std::string_view a, std::string_view b)
                  : std::array{std::string(b), std::string(a)};
 }
 
+/// The bonds of a row such as "N-CA CA-C C=O".
 ResidueBonds parsed(std::string_view row)
 {
     ResidueBonds bonds;

@@ -64,6 +64,7 @@ struct Composition {
     bool oneElement = true;
 };
 
+/// Counts of the elements of a residue, in its first alternate location.
 Composition compositionOf(const Members& members)
 {
     constexpr std::uint8_t hydrogen = 1, carbon = 6, nitrogen = 7, oxygen = 8,
@@ -166,6 +167,7 @@ private:
         }
     }
 
+    /// Marks what is in the place of an atom without being one: virtual sites, lone pairs, centres.
     void markParticles(std::int32_t r)
     {
         const NameClass kind = names_[std::size_t(r)];

@@ -56,6 +56,8 @@ double angleBetween(const Mat3d& a, const Mat3d& b)
 class Copies
 {
 public:
+    /// Rotations of the copies, and where they place a point, relative to the middle of all.
+    /// @throws Error(ErrorKind::Input) if an operator is no rotation
     Copies(const Assembly& assembly, const Vec3d& reference)
         : operators_(operatorsOf(assembly)), parts_(partsOfCopies(assembly))
     {
@@ -190,6 +192,7 @@ bool areParallel(const Vec3d& u, const Vec3d& v)
     return u.cross(v).length() < std::sin(1.5 * angleTolerance);
 }
 
+/// The Schoenflies symbol by the number and folds of the axes, as C5, D2, T, O or I.
 std::string pointGroupOf(const Symmetry& symmetry)
 {
     const std::size_t order = symmetry.order;
