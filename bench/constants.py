@@ -44,7 +44,7 @@ CASES = {
     "paper": ("1crn.pdb", "--flow paper"),
     "ses": ("1a8o.cif.gz", "--surface ses"),
     "gaussian": ("1crn.pdb", "--surface gaussian"),
-    "min-wall": ("1crn.pdb", "--print-scale 1 --min-wall 3"),
+    "min-thickness": ("1crn.pdb", "--print-scale 1 --min-thickness 3"),
 }
 
 STATEMENT = re.compile(r"(?P<static>static )?constexpr (?P<type>float|double|int|std::size_t) (?P<names>[^;{]*?);", re.S)

@@ -42,15 +42,15 @@ PRODUCTS = {
     "remesh": ("--remesh 1", "a.ply"),
     "remesh fine": ("--remesh 0.3", "a.ply"),
     "remesh adapt": ("--remesh 1 --adapt 0.01", "a.ply"),
-    "wall": ("--print-scale 1 --min-wall 3", "a.stl"),
-    "wall thick": ("--print-scale 1 --min-wall 20", "a.stl"),
+    "wall": ("--print-scale 1 --min-thickness 3", "a.stl"),
+    "wall thick": ("--print-scale 1 --min-thickness 20", "a.stl"),
     "fill": ("--fill-cavities", "a.ply"),
     "fields": ("--fields all", "a.vdb"),
     "curvature": ("--curvature-totals", "a.json"),
     "measures": ("--measures sphericity,gyration_radius", "a.json"),
     "split": ("--split group --group-by chain", "a.ply"),
     "paper": ("--flow paper", "a.ply"),
-    "picture": ("--opacity 0.4 --all-walls", "a.png"),
+    "picture": ("--opacity 0.4 --show-behind", "a.png"),
 }
 # Molecules that have what a product needs, where not all do: several chains, a residue.
 ONLY = {"interfaces": (LARGE, LARGER), "tunnels": (SMALL, LARGE)}

@@ -7,6 +7,8 @@
 #include "signals.h"
 
 #include <molsurf/molecule/selection/shown_atoms.h>
+#include <molsurf/request/request_table.h>
+#include <molsurf/request/resolve.h>
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -137,12 +139,22 @@ nb::list describeSettings()
     return out;
 }
 
+/// Names that options had before, and theirs of today.
+nb::dict formerNames()
+{
+    nb::dict out;
+    for (const OptionRow<Request>& row : requestTable())
+        if (row.former) out[row.former] = row.name;
+    return out;
+}
+
 Settings settingsOf(const Given& given, const GroupWords& groups)
 {
     Settings settings = settingsOf(given);
     for (const auto& [group, select] : groups)
         settings.labels.groups.push_back({group, select, {}});
-    if (settings.colorGroups) settings.labels.groupBy = settings.colorGroups;
+    resolveGroups(settings);
+    if (settings.colorGroups) settings.labels.groupBy = settings.colorGroups; // of copies, too
     return settings;
 }
 
@@ -335,6 +347,7 @@ SurfaceOptions optionsOf(const Given& given, const std::vector<std::string>& ext
                          const std::string& areasOf)
 {
     Settings settings = settingsOf(given);
+    resolveGroups(settings);
     if (settings.colorGroups) settings.options.color = ColorBy::Group;
     SurfaceOptions& options = settings.options;
     options.energy = false;
@@ -344,6 +357,17 @@ SurfaceOptions optionsOf(const Given& given, const std::vector<std::string>& ext
     }
     if (!areasOf.empty()) options.areasOf = settingsOf({{"surface", {areasOf}}}).options.kind;
     return options;
+}
+
+/// Adds the warnings of settings to those of a surface.
+void addWarnings(const Given& given, Report& report)
+{
+    const auto isGiven = [&](const char* name) {
+        return std::any_of(given.begin(), given.end(),
+                           [&](const auto& one) { return one.first == name; });
+    };
+    for (const std::string& warning : settingWarnings(settingsOf(given), isGiven))
+        report.warnings.push_back(withKeywords(warning));
 }
 
 nb::tuple pairsOf(std::vector<ContactArea>&& contacts)
@@ -651,11 +675,14 @@ void addMolecule(nb::module_& m)
                 const std::string& areasOf, bool again, Listener progress, int threads) {
                  const How how{progress, threads};
                  SurfaceOptions options = optionsOf(given, extra, areasOf);
+                 const bool grouped = v.atoms->labels && !v.atoms->labels->groups.empty();
+                 again = again || (settingsOf(given, v.groups).labels.groupBy && !grouped);
                  auto [atoms, places] =
                      again ? asked(v, given, how)
                            : std::pair(std::make_shared<BallSet>(*v.atoms), v.places);
                  options.places = std::move(places);
                  MadeSurface made = surfaceOf(std::move(atoms), v.source, options, how);
+                 addWarnings(given, made.result.report);
                  made.file = v.file;
                  made.select = settingsOf(given).atoms;
                  return made;
@@ -742,6 +769,7 @@ void addSurface(nb::module_& m)
 void addFunctions(nb::module_& m)
 {
     m.def("settings", describeSettings);
+    m.def("former_names", formerNames);
     m.def("structure_endings", structureEndings);
     m.def("surface_endings", surfaceEndings);
     // Whether a colour needs what read() takes from a file; what is no colour does not.

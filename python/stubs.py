@@ -27,7 +27,7 @@ mdtraj: ModuleType
 
 Path = Union[str, PathLike[str]]
 MeshLike = Union[Surface, Path, tuple[ArrayLike, ArrayLike]]
-Walls = Literal["all", "outer", "cavities", None]
+Pieces = Literal["all", "outer", "cavities", None]
 Labels = Union[str, Sequence[Union[str, tuple[Union[str, ArrayLike], str]]]]
 Rulers = Sequence[tuple[Union[str, ArrayLike], Union[str, ArrayLike]]]
 Panels = Union[Sequence[Surface], Mapping[str, Union[Surface, str]], None]
@@ -103,13 +103,13 @@ METHODS = '''\
     def to_trimesh(self) -> Any: ...
     def to_pyvista(self) -> Any: ...
     def voxels(self) -> Voxels: ...
-    def save(self, path: Path, *, replace: bool = True, panels: Panels = None, walls: Walls = None, crisp: bool = False,
+    def save(self, path: Path, *, replace: bool = True, panels: Panels = None, pieces: Pieces = None, sharp_colors: bool = False,
              center: bool = False, print_scale: float | None = None, label: Labels = (), ruler: Rulers = (),
              show: Mapping[str, Molecule] | None = None, scene: str | None = None, turntable: int | None = None,
              fps: float | None = None, contacts: Literal["atom", "residue", "chain"] | None = None, width: int | None = None,
              view: ArrayLike | Path | None = None, up: ArrayLike | None = None, turn: float | None = None,
              background: str | None = None, plain_color: str | None = None, style: str | None = None,
-             opacity: float | None = None, all_walls: bool = False, clip: float | None = None, depth_cue: bool = False,
+             opacity: float | None = None, show_behind: bool = False, clip: float | None = None, depth_cue: bool = False,
              legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False, dpi: float | None = None) -> None: ...
     def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True, center: bool = False,
                fog_density: float | None = None, ids: Literal["int", "float"] | None = None, one_box: bool = False,
@@ -119,9 +119,9 @@ METHODS = '''\
     def view(self, height: int = 480, panels: Panels = None) -> Page: ...
     def picture(self, path: Path, width: int = 1200, *, replace: bool = True, view: ArrayLike | Path | None = None,
                 up: ArrayLike | None = None, turn: float | None = None, background: str | None = None, plain_color: str | None = None,
-                style: str | None = None, opacity: float | None = None, all_walls: bool = False, clip: float | None = None,
+                style: str | None = None, opacity: float | None = None, show_behind: bool = False, clip: float | None = None,
                 depth_cue: bool = False, legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False,
-                dpi: float | None = None, walls: Walls = None,
+                dpi: float | None = None, pieces: Pieces = None,
                 label: Labels = (), ruler: Rulers = (),
                 show: Mapping[str, Molecule] | None = None, panels: Panels = None) -> None: ...
 '''

@@ -36,7 +36,7 @@ draw() # NAME SAMPLES SCRIPT WORD...
 unit=("$data/1a8o.cif.gz" --assembly 1 --size 300 --force -q)
 "$tool" "${unit[@]}" --for blender=nm --fog-density 0.2 -o "$out/art_still.png"
 "$tool" "$data/2buk.pdb.gz" --assembly 1 --instances --color copy --size 300 --force -q -o "$out/art_shell.png"
-"$tool" "${unit[@]}" --print-scale 0.5 --min-wall 2 --group-by copy --split group --color group -o "$out/art_print.png"
+"$tool" "${unit[@]}" --print-scale 0.5 --min-thickness 2 --group-by copy --split group --color group -o "$out/art_print.png"
 "$tool" "$data/1d3z.pdb.gz" --voxel 1 --frames 1-3 --first-frame 1001 --fps 24 --fields v --color element --for usd=nm -q -o film.usda
 size=300 draw art_film 96 open_in_blender.py film.usda --frame 1002 --blur
 

@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 LINES, PARAMETERS = 70, 6
 
 LONGER = {}
-WIDER = {"candidates": 10, "number": 9, "computeBrick": 9, "mergeBricks": 8, "count": 8, "surfaceOf": 7,
+WIDER = {"candidates": 10, "computeBrick": 9, "mergeBricks": 8, "surfaceOf": 7,
          "ballValues": 7, "writeOutput": 7, "writeAll": 7, "moveToSurface": 7, "evolve": 7,
          "addArc": 7,
          # kernels: rows of fields, and what a loop carries along

@@ -39,7 +39,7 @@ def cases():
     yield ["@4at1.ent.gz --voxel 1 --resolution 6 --match-volume --fill-cavities " + FILES.format("a")]
     yield ["@4at1.ent.gz --voxel 1 --coarse residue --surface sas --fields sas,density " + FILES.format("a")]
     yield ["@1ubq.pdb --for blender --center --color residue " + FILES.format("a")]
-    yield ["@1ubq.pdb --print-scale 2 --min-wall 3 --spline-level 1 -o a.stl -o a.obj " + FILES.format("a")]
+    yield ["@1ubq.pdb --print-scale 2 --min-thickness 3 --spline-level 1 -o a.stl -o a.obj " + FILES.format("a")]
     yield ["@1ubq.pdb --flow paper --max-steps 40 --regularizer area --lambda 0.2 " + FILES.format("a")]
     for kind in ["variational", "ses", "vdw"]:
         plan = f"@4at1.ent.gz --surface {kind} --voxel 1 --fields sas,chain_id,mean_curvature --bricks 3 -o p.json"
@@ -64,7 +64,7 @@ def cases():
     yield [f"{dimer} --copies 2 --group-by entity --color group --interfaces -o a.ply -o a.json"]
     yield ["@1a8o.cif.gz --assembly 1 --instances --lod 1.5,3 --surface vdw --color chain -o a.glb -o a.usda -o a.view"]
     for color, kind in (("chain", "ses"), ("residue", "vdw"), ("element", "sas"), ("element", "variational")):
-        yield [f"@4at1.ent.gz --voxel 1 --surface {kind} --color {color} --crisp -o a.ply -o a.obj -o a.3mf -o a.png"]
+        yield [f"@4at1.ent.gz --voxel 1 --surface {kind} --color {color} --sharp-colors -o a.ply -o a.obj -o a.3mf -o a.png"]
     for kind in KINDS:
         yield [f"@4at1.ent.gz --voxel 1 --surface {kind} -o a.atoms.csv -o a.contacts.csv -o a.interfaces.csv -o a.cif"]
     yield ["@1ubq.pdb --surface ses --color bfactor -o a.html -o a.wrl -o a.off --areas atoms,residues -o a.json"]

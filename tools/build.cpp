@@ -69,7 +69,8 @@ bool seesBehind(const CommandLine& call)
 {
     const bool showsBodies = call.showsPockets() || !call.places.tunnelsFrom.empty();
     const bool throughBodies = showsBodies && !call.shows.empty();
-    return throughBodies || (call.picture.opacity < 1.0 && (call.picture.allWalls || showsBodies));
+    return throughBodies ||
+           (call.picture.opacity < 1.0 && (call.picture.showBehind || showsBodies));
 }
 
 bool needsClosedForm(const CommandLine& call)
@@ -336,7 +337,7 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
                     "--pocket-at " + call.places.pocketAt +
                         ": no pocket is within 4 Å of these atoms [hint: --pocket-cut 0 finds "
                         "shallow ones, too]");
-    keepWalls(call.walls, terminal, result.mesh); // the report and the .vdb have all
+    keepPieces(call.pieces, terminal, result.mesh); // the report and the .vdb have all
     checkRequired(call.required, result.mesh, result.report.surface);
     warnOfPaint(call, result.mesh, result.report);
     terminal.erase();

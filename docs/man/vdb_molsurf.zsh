@@ -7,10 +7,10 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'nvdb' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'pore.ply' 'pore.obj' 'pore.glb' 'tunnels.ply' 'tunnels.obj' 'tunnels.glb' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.vtk' 'pockets.glb' 'pdb' 'cif' 'residues.pdb' 'residues.cif'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'off' 'wrl' 'msh2' 'nvdb' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pdb' 'cif' 'residues.pdb' 'residues.cif' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.wrl' 'pockets.vtk' 'pockets.glb' 'pockets.3mf' 'pore.ply' 'pore.obj' 'pore.stl' 'pore.off' 'pore.wrl' 'pore.vtk' 'pore.glb' 'pore.3mf' 'tunnels.ply' 'tunnels.obj' 'tunnels.stl' 'tunnels.off' 'tunnels.wrl' 'tunnels.vtk' 'tunnels.glb' 'tunnels.3mf'; return ;;
     "build:--superpose") compadd -- 'auto'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
-    "build:--walls") compadd -- 'all' 'outer' 'cavities'; return ;;
+    "build:--pieces") compadd -- 'all' 'outer' 'cavities'; return ;;
     "build:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "build:--measures") compadd -- 'sphericity' 'gyration_radius'; return ;;
     "build:--match") compadd -- 'none' 'ses'; return ;;
@@ -29,9 +29,9 @@ case "$verb:$words[CURRENT-1]" in
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
     "build:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube' 'pockets'; return ;;
     "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
+    "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "build:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
-    "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "batch:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "batch:--measures") compadd -- 'sphericity' 'gyration_radius'; return ;;
@@ -51,9 +51,9 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
     "batch:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube' 'pockets'; return ;;
     "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
+    "batch:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "batch:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
-    "batch:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "compare:--format") compadd -- 'vdb' 'ply' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "compare:--color") compadd -- 'distance' 'signed-distance'; return ;;
     "compare:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
@@ -67,7 +67,7 @@ case "$verb:$words[CURRENT-1]" in
     "compare:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "compare:--regularizer") compadd -- 'gradient' 'area'; return ;;
     "compare:--flow") compadd -- 'rest' 'newton' 'paper'; return ;;
-    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'off' 'wrl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'msh2' 'nvdb' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
+    "convert:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'off' 'wrl' 'msh2' 'nvdb' 'mrc' 'dx' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view'; return ;;
     "convert:--fields") compadd -- 'all' 'surface' 'sas' 'spline' 'mean_curvature' 'gaussian_curvature' 'principal_curvature_1' 'principal_curvature_2' 'shape_index' 'curvedness' 'principal_direction_1' 'principal_direction_2' 'density' 'atom_id' 'chain_id' 'group_id' 'Cd' 'value' 'pocket_id' 'pocket_depth' 'pocket_room' 'depth' 'v'; return ;;
     "convert:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature'; return ;;
     "convert:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
@@ -104,7 +104,6 @@ if [[ $words[CURRENT] == -* ]]; then
       '--assembly:biological assembly to build; none\: as in the file;'
       '--instances:the surface of each distinct copy of the assembly once\:'
       '--by-symmetry:the joint surface of the whole assembly from one unit,'
-      '--weld:with --by-symmetry\: units share the vertices of their borders'
       '--copies:copies of the assembly\: numbers such as 1,7,20-25, or'
       '--altloc:alternate location to take, or all'
       '--no-hydrogens:drop hydrogens'
@@ -126,7 +125,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--lod:with --instances\: voxels such as 1,2,4 in the place of'
       '--blobbiness:decay of the Gaussians of --surface gaussian'
       '--fill-cavities:drop the inner walls'
-      '--walls:closed pieces that meshes and pictures have\: all; outer,'
+      '--pieces:closed pieces that meshes and pictures have\: all; outer,'
       '--remesh:triangles of even shape, with edges near L [Å]'
       '--density:the same with N vertices per Å^2 of surface'
       '--adapt:with --remesh or --density\: shorter edges where it bends,'
@@ -135,6 +134,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--curvature-totals:integrate curvature over the surface, for the report'
       '--measures:numbers of the whole surface for the report, by commas;'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
@@ -149,9 +149,9 @@ if [[ $words[CURRENT] == -* ]]; then
       '--palette:colours of values and curvatures, low ones first\: viridis,'
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
-      '--outward:potentials are taken A outside of the surface [Å]'
+      '--potential-offset:potentials are taken A outside of the surface [Å]'
       '--plain-color:of a surface without --color'
-      '--crisp:mesh files\: triangles are cut where colours meet'
+      '--sharp-colors:mesh files\: triangles are cut where colours meet'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
       '--pockets:pockets of the surface, for the report, .pockets.csv, and a'
@@ -170,7 +170,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--mips:N coarser levels of density and Cd in a .vdb, each with'
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
-      '--min-wall:thicken what is thinner than W mm; with --print-scale'
+      '--min-thickness:thicken what is thinner than W mm; with --print-scale'
       '--apbs-grid:an input of APBS whose dime, glen and gcent are used;'
       '--pdie:relative permittivity of the molecule'
       '--sdie:relative permittivity of the solvent'
@@ -186,20 +186,13 @@ if [[ $words[CURRENT] == -* ]]; then
       '--ruler:a line between the middles of atoms, or places X,Y,Z, with'
       '--panel:a further picture beside the first, with its camera, scale'
       '--opacity:of the surface, seen from the front'
-      '--all-walls:--opacity shows what is behind the nearest wall, too'
+      '--show-behind:--opacity shows what is behind the nearest wall, too'
       '--clip:cuts away what is nearer to the eye than the middle'
       '--depth-cue:distant parts fade to the background'
       '--legend:on or off; auto\: beside colours, if 600 pixels wide'
       '--scale-bar:a bar below the picture that shows a length'
       '--dpi:pixels an inch when it is printed; --size stays'
       '--turntable:N pictures round the upright\: name.0001.png, ..., or in'
-      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
-      '--regularizer:gradient or area'
-      '--flow:rest\: in closed form, where no front moves, else newton;'
-      '--max-steps:steps at most'
-      '--steps:so many steps, converged or not'
-      '--tolerance:converged when a step moves the surface by less than T'
-      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--memory:memory at most, such as 4G\: in bricks, one by one, if'
       '--max-hours:refuse what is estimated to take more hours'
       '--dry-run:print the estimated time and memory, and stop'
@@ -212,6 +205,13 @@ if [[ $words[CURRENT] == -* ]]; then
       '-v:print the time of every stage'
       '--no-progress:no progress bar'
       '--config:options as lines "name = value"; the command line wins'
+      '--regularizer:gradient or area'
+      '--flow:rest\: in closed form, where no front moves, else newton;'
+      '--max-steps:steps at most'
+      '--steps:so many steps, converged or not'
+      '--tolerance:converged when a step moves the surface by less than T'
+      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
+      '--weld:with --by-symmetry\: units share the vertices of their borders'
       '--list-radii:print the radii sets and stop'
       '--version:print the version and stop'
       '-V:print the version and stop'
@@ -248,6 +248,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--curvature-totals:integrate curvature over the surface, for the report'
       '--measures:numbers of the whole surface for the report, by commas;'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
@@ -262,7 +263,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--palette:colours of values and curvatures, low ones first\: viridis,'
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
-      '--outward:potentials are taken A outside of the surface [Å]'
+      '--potential-offset:potentials are taken A outside of the surface [Å]'
       '--plain-color:of a surface without --color'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
@@ -282,7 +283,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--mips:N coarser levels of density and Cd in a .vdb, each with'
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
-      '--min-wall:thicken what is thinner than W mm; with --print-scale'
+      '--min-thickness:thicken what is thinner than W mm; with --print-scale'
       '--view:a direction toward the eye, X,Y,Z or an axis as z or -z;'
       '--up:what is upright, such as z, the normal of a membrane;'
       '--turn:turned by so many degrees about the upright'
@@ -293,20 +294,13 @@ if [[ $words[CURRENT] == -* ]]; then
       '--label:a text at the middle of atoms, such as "A/57=active site";'
       '--ruler:a line between the middles of atoms, or places X,Y,Z, with'
       '--opacity:of the surface, seen from the front'
-      '--all-walls:--opacity shows what is behind the nearest wall, too'
+      '--show-behind:--opacity shows what is behind the nearest wall, too'
       '--clip:cuts away what is nearer to the eye than the middle'
       '--depth-cue:distant parts fade to the background'
       '--legend:on or off; auto\: beside colours, if 600 pixels wide'
       '--scale-bar:a bar below the picture that shows a length'
       '--dpi:pixels an inch when it is printed; --size stays'
       '--turntable:N pictures round the upright\: name.0001.png, ..., or in'
-      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
-      '--regularizer:gradient or area'
-      '--flow:rest\: in closed form, where no front moves, else newton;'
-      '--max-steps:steps at most'
-      '--steps:so many steps, converged or not'
-      '--tolerance:converged when a step moves the surface by less than T'
-      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--max-hours:refuse what is estimated to take more hours'
       '--require:what the mesh has to be, or nothing is written and the'
       '--threads:threads at most'
@@ -317,6 +311,12 @@ if [[ $words[CURRENT] == -* ]]; then
       '-v:print the time of every stage'
       '--no-progress:no progress bar'
       '--config:options as lines "name = value"; the command line wins'
+      '--regularizer:gradient or area'
+      '--flow:rest\: in closed form, where no front moves, else newton;'
+      '--max-steps:steps at most'
+      '--steps:so many steps, converged or not'
+      '--tolerance:converged when a step moves the surface by less than T'
+      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--version:print the version and stop'
       '-V:print the version and stop'
       '--help:print the common options and stop'
@@ -349,6 +349,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--blobbiness:decay of the Gaussians of --surface gaussian'
       '--fill-cavities:drop the inner walls'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
@@ -360,20 +361,13 @@ if [[ $words[CURRENT] == -* ]]; then
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'
       '--style:soft; glossy\: with highlights; outline\: as drawn with a'
       '--opacity:of the surface, seen from the front'
-      '--all-walls:--opacity shows what is behind the nearest wall, too'
+      '--show-behind:--opacity shows what is behind the nearest wall, too'
       '--clip:cuts away what is nearer to the eye than the middle'
       '--depth-cue:distant parts fade to the background'
       '--legend:on or off; auto\: beside colours, if 600 pixels wide'
       '--scale-bar:a bar below the picture that shows a length'
       '--dpi:pixels an inch when it is printed; --size stays'
       '--turntable:N pictures round the upright\: name.0001.png, ..., or in'
-      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
-      '--regularizer:gradient or area'
-      '--flow:rest\: in closed form, where no front moves, else newton;'
-      '--max-steps:steps at most'
-      '--steps:so many steps, converged or not'
-      '--tolerance:converged when a step moves the surface by less than T'
-      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--max-hours:refuse what is estimated to take more hours'
       '--dry-run:print the estimated time and memory, and stop'
       '--threads:threads at most'
@@ -384,6 +378,12 @@ if [[ $words[CURRENT] == -* ]]; then
       '-v:print the time of every stage'
       '--no-progress:no progress bar'
       '--config:options as lines "name = value"; the command line wins'
+      '--regularizer:gradient or area'
+      '--flow:rest\: in closed form, where no front moves, else newton;'
+      '--max-steps:steps at most'
+      '--steps:so many steps, converged or not'
+      '--tolerance:converged when a step moves the surface by less than T'
+      '--spline-level:spline on voxels of 2^L times the edge; 0, 1 or 2'
       '--version:print the version and stop'
       '-V:print the version and stop'
       '--help:print the common options and stop'
@@ -411,7 +411,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--background:as #rrggbb or #rgb, a name such as black, or transparent'
       '--style:soft; glossy\: with highlights; outline\: as drawn with a'
       '--opacity:of the surface, seen from the front'
-      '--all-walls:--opacity shows what is behind the nearest wall, too'
+      '--show-behind:--opacity shows what is behind the nearest wall, too'
       '--clip:cuts away what is nearer to the eye than the middle'
       '--depth-cue:distant parts fade to the background'
       '--legend:on or off; auto\: beside colours, if 600 pixels wide'
@@ -456,6 +456,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--fields:grids of the .vdb, by commas, or all of'
       '--vdb-half:floats of the .vdb in 16 bits, within 0.05 %\: half the size'
       '--epsilon:tolerance of the Gaussian sum [Å]; larger is smoother'
+      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
       '--match:ses\: variational with --epsilon 0.1, --lambda 0.003 and 0.073 Å'
       '--resolution:blur to D [Å], 1 to 50, all atoms or those of a'
       '--coarse:beads in the place of atoms\: residue (its backbone and'
@@ -466,12 +467,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--palette:colours of values and curvatures, low ones first\: viridis,'
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
-      '--outward:potentials are taken A outside of the surface [Å]'
-      '--lambda:weight of the regulariser [Å^2 for gradient, 1 for area]'
-      '--regularizer:gradient or area'
-      '--flow:rest\: in closed form, where no front moves, else newton;'
-      '--steps:so many steps, converged or not'
-      '--tolerance:converged when a step moves the surface by less than T'
+      '--potential-offset:potentials are taken A outside of the surface [Å]'
       '--bricks:how many bricks, about as large each'
       '--memory:or as many bricks as it takes for each to need no more,'
       '--threads:threads at most'
@@ -480,6 +476,10 @@ if [[ $words[CURRENT] == -* ]]; then
       '-q:print errors only'
       '--no-progress:no progress bar'
       '--config:options as lines "name = value"; the command line wins'
+      '--regularizer:gradient or area'
+      '--flow:rest\: in closed form, where no front moves, else newton;'
+      '--steps:so many steps, converged or not'
+      '--tolerance:converged when a step moves the surface by less than T'
       '--version:print the version and stop'
       '-V:print the version and stop'
       '--help:print the common options and stop'

@@ -72,7 +72,7 @@ def test_save_takes_the_options_of_files(crambin, tmp_path):
 
 
 PICTURE = {"view": (0.2, -1, 0.5), "up": (1, 0, 0), "turn": 30, "background": "#102030", "plain_color": "#ffd700", "style": "outline",
-           "opacity": 0.4, "all_walls": True, "clip": 2.5, "depth_cue": True, "legend": "on", "scale_bar": True, "dpi": 300}
+           "opacity": 0.4, "show_behind": True, "clip": 2.5, "depth_cue": True, "legend": "on", "scale_bar": True, "dpi": 300}
 
 
 def test_pictures_are_those_of_the_command(tmp_path):
@@ -83,7 +83,7 @@ def test_pictures_are_those_of_the_command(tmp_path):
         for name, value in PICTURE.items():
             if (name == "plain_color") == (color == "chain") or (name == "legend" and color == "none"):
                 continue
-            both = {name: value, **({"opacity": 0.4} if name == "all_walls" else {})}
+            both = {name: value, **({"opacity": 0.4} if name == "show_behind" else {})}
             made.picture(tmp_path / "a.png", 80, **both)
             words = []
             for key, of in both.items():
@@ -141,22 +141,22 @@ def test_files_are_those_of_the_command(tmp_path):
     """Each option of files has the bytes of the command's file, other than those without it."""
     molecule = ms.read(DATA / "1crn.pdb", voxel=0.7, color="element")
     ses, words = molecule.surface(kind="ses"), ["--surface", "ses", "--voxel", "0.7", "--color", "element"]
-    for name, keywords, more in [(".ply", {"crisp": True}, ["--crisp"]), (".obj", {"walls": "outer"}, ["--walls", "outer"]),
-                                 (".ply", {"walls": "cavities"}, ["--walls", "cavities"]), (".off", {"center": True}, ["--center"]),
+    for name, keywords, more in [(".ply", {"sharp_colors": True}, ["--sharp-colors"]), (".obj", {"pieces": "outer"}, ["--pieces", "outer"]),
+                                 (".ply", {"pieces": "cavities"}, ["--pieces", "cavities"]), (".off", {"center": True}, ["--center"]),
                                  (".stl", {"print_scale": 0.5}, ["--print-scale", "0.5"])]:
         plain, _ = both(tmp_path, name, ses, words)
         ours, theirs = both(tmp_path, name, ses, [*words, *more], **keywords)
         assert ours == theirs and ours != plain, keywords
     for name in ("walls.png", "plain.png"):
-        ses.picture(tmp_path / name, 80, walls="cavities" if name == "walls.png" else None)
+        ses.picture(tmp_path / name, 80, pieces="cavities" if name == "walls.png" else None)
     assert (tmp_path / "walls.png").read_bytes() != (tmp_path / "plain.png").read_bytes()
-    thick = molecule.surface(min_wall=4)
-    ours, theirs = both(tmp_path, ".stl", thick, ["--voxel", "0.7", "--print-scale", "0.5", "--min-wall", "2"], print_scale=0.5)
+    thick = molecule.surface(min_thickness=4)
+    ours, theirs = both(tmp_path, ".stl", thick, ["--voxel", "0.7", "--print-scale", "0.5", "--min-thickness", "2"], print_scale=0.5)
     assert ours == theirs and thick.volume > molecule.surface().volume + 1
-    with pytest.raises(ms.OptionError, match="`crisp`: .*does not show it"):
-        ses.save(tmp_path / "c.stl", crisp=True)
-    with pytest.raises(ms.OptionError, match="`walls`: expected all or outer or cavities"):
-        ses.save(tmp_path / "c.stl", walls="inner")
+    with pytest.raises(ms.OptionError, match="`sharp_colors`: .*does not show it"):
+        ses.save(tmp_path / "c.stl", sharp_colors=True)
+    with pytest.raises(ms.OptionError, match="`pieces`: expected all or outer or cavities"):
+        ses.save(tmp_path / "c.stl", pieces="inner")
     assert not (tmp_path / "c.stl").exists()
 
 

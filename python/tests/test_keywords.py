@@ -59,6 +59,18 @@ def test_save_writes_the_endings_of_the_command_line():
     assert told - set(_core.surface_endings()) == {".csv"}
 
 
+def test_keywords_of_before_are_taken(crambin, tmp_path):
+    """Of surfaces, of files and of pictures; both names at once are not."""
+    assert _options.FORMER == {"walls": "pieces", "crisp": "sharp_colors", "all_walls": "show_behind", "min_wall": "min_thickness",
+                               "outward": "potential_offset"}
+    thick = [crambin.surface(voxel=2.0, **{name: 3}) for name in ("min_wall", "min_thickness")]
+    assert thick[0].area == thick[1].area != crambin.surface(voxel=2.0).area
+    for old, new, more in (("walls", "pieces", "outer"), ("all_walls", "show_behind", True)):
+        for name in (old, new):
+            thick[0].picture(tmp_path / f"{name}.png", 64, opacity=0.5, **{name: more})
+        assert (tmp_path / f"{old}.png").read_bytes() == (tmp_path / f"{new}.png").read_bytes()
+
+
 def test_keywords_are_names_of_python():
     assert all(name.isidentifier() for name in _options.KEYWORDS)
     assert len(_options.KEYWORDS) == len(_options.SETTINGS)
@@ -116,9 +128,9 @@ def test_every_keyword_is_taken(crambin):
                 "range": (0, 50), "resolution": 8, "coarse": "residue", "select": "A", "model": 1, "assembly": "none",
                 "altloc": "all", "radii": "protor", "max_input": "1G", "copies": None, "lambda_": 0.02, "tolerance": 0.02,
                 "voxel": 1.0, "probe": 1.2, "blobbiness": 2.0, "epsilon": 0.4, "match": "ses", "remesh": 0.7, "density": 1.5, "adapt": 0.05,
-                "palette": "cividis", "value_of": "residue", "outward": 2,
+                "palette": "cividis", "value_of": "residue", "potential_offset": 2,
                 "pocket_at": "resid 5", "probe_in": 1.2, "probe_out": 5, "pocket_cut": 1, "pocket_neck": 0.4,
-                "pore": "resid 2 -> resid 30", "tunnels_from": "resid 30", "tunnel_probe": 1.2, "min_wall": 1.5,
+                "pore": "resid 2 -> resid 30", "tunnels_from": "resid 30", "tunnel_probe": 1.2, "min_thickness": 1.5,
                 "measures": ["sphericity", "gyration_radius"]}
     for name, row in _options.KEYWORDS.items():
         value = True if row["type"] == "switch" else examples[name]

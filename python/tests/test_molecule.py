@@ -54,7 +54,20 @@ def test_keywords_of_read_are_defaults(crambin):
     assert s.kind == "sas" and s.report["voxel"] == 1 and len(s.colors) == len(s.vertices)
     assert m.surface(kind="vdw", color="none").kind == "vdw"
     with pytest.raises(ValueError, match="expected groups"):
-        crambin.surface(interfaces=True)
+        crambin.surface(split="group")
+
+
+def test_defaults_that_depend_are_those_of_the_command_line(crambin):
+    """Interfaces are between chains, a grid of colours is by chain, and keywords without effect are warned of."""
+    molecule = ms.read(DATA / "4at1.ent.gz", kind="sas")
+    pairs = [molecule.surface(grid=False, interfaces=True, **more).report["interfaces"] for more in ({}, {"group_by": "chain"})]
+    assert pairs[0] == pairs[1] and len(pairs[0]) == 3
+    assert crambin.surface(kind="sas", grid=False, interfaces=True).report["interfaces"] == []  # one chain
+    s = crambin.surface(voxel=1, fields="Cd")
+    assert len(s.colors) == len(s.vertices)
+    warned = crambin.surface(kind="ses", voxel=1, epsilon=0.3, blobbiness=2).report["warnings"]
+    assert warned == ["`blobbiness` is for `kind` gaussian", "`epsilon` is for `kind` variational or smooth-sas"]
+    assert crambin.surface(voxel=1, epsilon=0.3).report["warnings"] == ["`epsilon` 0.3: a tolerance below half a voxel is not resolved"]
 
 
 def test_a_molecule_answers_questions_about_its_atoms(crambin):

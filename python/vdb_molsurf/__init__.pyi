@@ -15,7 +15,7 @@ mdtraj: ModuleType
 
 Path = Union[str, PathLike[str]]
 MeshLike = Union[Surface, Path, tuple[ArrayLike, ArrayLike]]
-Walls = Literal["all", "outer", "cavities", None]
+Pieces = Literal["all", "outer", "cavities", None]
 Labels = Union[str, Sequence[Union[str, tuple[Union[str, ArrayLike], str]]]]
 Rulers = Sequence[tuple[Union[str, ArrayLike], Union[str, ArrayLike]]]
 Panels = Union[Sequence[Surface], Mapping[str, Union[Surface, str]], None]
@@ -118,13 +118,13 @@ class Surface:
     def to_trimesh(self) -> Any: ...
     def to_pyvista(self) -> Any: ...
     def voxels(self) -> Voxels: ...
-    def save(self, path: Path, *, replace: bool = True, panels: Panels = None, walls: Walls = None, crisp: bool = False,
+    def save(self, path: Path, *, replace: bool = True, panels: Panels = None, pieces: Pieces = None, sharp_colors: bool = False,
              center: bool = False, print_scale: float | None = None, label: Labels = (), ruler: Rulers = (),
              show: Mapping[str, Molecule] | None = None, scene: str | None = None, turntable: int | None = None,
              fps: float | None = None, contacts: Literal["atom", "residue", "chain"] | None = None, width: int | None = None,
              view: ArrayLike | Path | None = None, up: ArrayLike | None = None, turn: float | None = None,
              background: str | None = None, plain_color: str | None = None, style: str | None = None,
-             opacity: float | None = None, all_walls: bool = False, clip: float | None = None, depth_cue: bool = False,
+             opacity: float | None = None, show_behind: bool = False, clip: float | None = None, depth_cue: bool = False,
              legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False, dpi: float | None = None) -> None: ...
     def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True, center: bool = False,
                fog_density: float | None = None, ids: Literal["int", "float"] | None = None, one_box: bool = False,
@@ -134,9 +134,9 @@ class Surface:
     def view(self, height: int = 480, panels: Panels = None) -> Page: ...
     def picture(self, path: Path, width: int = 1200, *, replace: bool = True, view: ArrayLike | Path | None = None,
                 up: ArrayLike | None = None, turn: float | None = None, background: str | None = None, plain_color: str | None = None,
-                style: str | None = None, opacity: float | None = None, all_walls: bool = False, clip: float | None = None,
+                style: str | None = None, opacity: float | None = None, show_behind: bool = False, clip: float | None = None,
                 depth_cue: bool = False, legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False,
-                dpi: float | None = None, walls: Walls = None,
+                dpi: float | None = None, pieces: Pieces = None,
                 label: Labels = (), ruler: Rulers = (),
                 show: Mapping[str, Molecule] | None = None, panels: Panels = None) -> None: ...
 
@@ -179,7 +179,7 @@ class Molecule:
         probe: float = 1.4,
         blobbiness: float = 2.3,
         fill_cavities: bool = False,
-        min_wall: float = 0.0,
+        min_thickness: float = 0.0,
         fields: str | Sequence[object] = ...,
         vdb_half: bool = False,
         curvature_totals: bool = False,
@@ -199,7 +199,7 @@ class Molecule:
         palette: Literal["viridis", "cividis", "batlow", "OrRd", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
         value_of: Literal["atom", "residue"] = "atom",
         flat_values: bool = False,
-        outward: float = ...,
+        potential_offset: float = ...,
         pocket_at: str = ...,
         pore: str = ...,
         tunnels_from: str = ...,
@@ -236,7 +236,7 @@ def surface(positions: ArrayLike, radii: ArrayLike, *,
     probe: float = 1.4,
     blobbiness: float = 2.3,
     fill_cavities: bool = False,
-    min_wall: float = 0.0,
+    min_thickness: float = 0.0,
     fields: str | Sequence[object] = ...,
     vdb_half: bool = False,
     curvature_totals: bool = False,
@@ -292,7 +292,7 @@ def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
     probe: float = 1.4,
     blobbiness: float = 2.3,
     fill_cavities: bool = False,
-    min_wall: float = 0.0,
+    min_thickness: float = 0.0,
     fields: str | Sequence[object] = ...,
     vdb_half: bool = False,
     curvature_totals: bool = False,
@@ -314,7 +314,7 @@ def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
     palette: Literal["viridis", "cividis", "batlow", "OrRd", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
     value_of: Literal["atom", "residue"] = "atom",
     flat_values: bool = False,
-    outward: float = ...,
+    potential_offset: float = ...,
     pocket_at: str = ...,
     pore: str = ...,
     tunnels_from: str = ...,

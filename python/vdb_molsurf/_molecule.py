@@ -196,7 +196,7 @@ class Molecule:
         """
         if not self._core.is_whole:
             options.setdefault("atom_areas", False)
-        options, extra, areas_of, how = _split(options)
+        options, extra, areas_of, how = _split(_options.today(options))
         pairs = _options.given(options, "molecule", _options.MORE)
         known = dict(self._given)
         again = any(values != known.get(name) and
@@ -204,9 +204,9 @@ class Molecule:
                     for name, values in pairs)
         named = {name for name, _ in pairs}
         made = _made([pair for pair in self._given if pair[0] not in named] + pairs, extra, areas_of)
-        if any(name in ("interfaces", "split", "surface-of") for name, _ in made[0]) and not self.groups and \
+        if any(name in ("split", "surface-of") for name, _ in made[0]) and not self.groups and \
                 "group-by" not in named:
-            raise ValueError("interfaces, split and surface_of: expected groups [hint: surface(..., group_by=\"chain\")]")
+            raise ValueError("split and surface_of: expected groups [hint: surface(..., group_by=\"chain\")]")
         return Surface(_called(self._core.surface, *made, again, **how), made)
 
 
@@ -234,6 +234,7 @@ def read(source, *, groups=None, progress=None, threads=0, **options):
 
     Keywords:
     """
+    options = _options.today(options)
     asked = sorted(_options.ASKED_LATER & {name for name, value in options.items() if value is not None})
     if asked:
         warnings.warn(f"read: {', '.join(asked)} will be of Molecule.surface() alone", DeprecationWarning, stacklevel=2)
@@ -242,7 +243,7 @@ def read(source, *, groups=None, progress=None, threads=0, **options):
 
 def _read(source, groups, progress, threads, options):
     """read(), and what asks for the surface at once."""
-    given = _options.given(options, "atoms", ("groups", "progress", "threads"))
+    given = _options.given(_options.today(options), "atoms", ("groups", "progress", "threads"))
     if groups is not None and not (hasattr(groups, "items") and all(
             isinstance(k, str) and isinstance(v, str) for k, v in groups.items())):
         raise TypeError("groups: expected a dict of selections by name")

@@ -14,6 +14,15 @@ SETTINGS = {row["name"]: row for row in _core.settings()}
 _RENAMED = {"surface": "kind", "lambda": "lambda_"}
 KEYWORDS = {_RENAMED.get(name, name.replace("-", "_")): row for name, row in SETTINGS.items()}
 
+# Keywords of before, which are taken as well.
+FORMER = {old.replace("-", "_"): new.replace("-", "_") for old, new in _core.former_names().items()}
+
+
+def today(options):
+    """The keywords with their names of today."""
+    return {FORMER.get(name, name): value for name, value in options.items()}
+
+
 # Keywords without a row: what stands for their values, the default, and what they do.
 MORE = {
     "atom_areas": ("bool", "True", "the area of each atom's part of the surface, as `atom_areas`"),

@@ -172,8 +172,8 @@ def _named(surface, panels):
 
 # The options of pictures by their keywords.
 LOOK = {"width": "size", **{name: name.replace("_", "-") for name in (
-    "view", "up", "turn", "background", "plain_color", "style", "opacity", "all_walls", "clip", "depth_cue", "legend", "scale_bar",
-    "dpi")}}
+    "view", "up", "turn", "background", "plain_color", "style", "opacity", "show_behind", "clip", "depth_cue", "legend", "scale_bar",
+    "dpi", "pieces", "sharp_colors")}}
 
 
 class Surface:
@@ -414,7 +414,7 @@ class Surface:
         """The voxels of the level set, about three on either side of the surface, and their signed distances."""
         return Voxels(*self._core.voxels())
 
-    def save(self, path, *, replace=True, panels=None, walls=None, crisp=False, center=False, print_scale=None, label=(), ruler=(),
+    def save(self, path, *, replace=True, panels=None, pieces=None, sharp_colors=False, center=False, print_scale=None, label=(), ruler=(),
              show=None, scene=None, turntable=None, fps=None, contacts=None, **look):
         """Writes the file that the command writes under the same name; how the name ends says what.
 
@@ -424,8 +424,8 @@ class Surface:
         atoms with their areas (.pdb, .cif). Tables and areas need a surface that was made with them, as atom_areas=True.
 
         panels: further surfaces of pictures, films and pages, as of picture().
-        walls: closed pieces that meshes, pictures and pages have: "all", "outer" or "cavities".
-        crisp: cuts the triangles of a mesh file where colours meet.
+        pieces: closed pieces that meshes, pictures and pages have: "all", "outer" or "cavities".
+        sharp_colors: cuts the triangles of a mesh file where colours meet.
         center: moves the middle of the surface to the origin, in meshes and .vdb.
         print_scale: .stl, .obj, .wrl and .3mf are in mm, at this many mm per Å.
         label: texts of a picture, as of picture().
@@ -440,10 +440,11 @@ class Surface:
         Raises OptionError if the name ends otherwise, or if the file does not show what was asked or needs what the surface
         was made without; OutputError if it cannot be written.
         """
+        look = {"pieces": pieces, "sharp_colors": sharp_colors, **_options.today(look)}
         unknown = sorted(set(look) - set(LOOK))
         if unknown:
             raise TypeError(f"save() got an unexpected keyword argument '{unknown[0]}'")
-        given = {"walls": walls, "crisp": crisp, "center": center, "print-scale": print_scale, "for": scene, "turntable": turntable,
+        given = {"center": center, "print-scale": print_scale, "for": scene, "turntable": turntable,
                  "fps": fps, "contacts": contacts, **{LOOK[name]: value for name, value in look.items()}}
         self._save(path, replace, given, panels, show, self._notes(label, ruler))
 
@@ -504,8 +505,8 @@ class Surface:
         return "<table>" + "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows) + "</table>"
 
     def picture(self, path, width=1200, *, replace=True, view=None, up=None, turn=None, background=None, plain_color=None,
-                style=None, opacity=None, all_walls=False, clip=None, depth_cue=False, legend=None, scale_bar=False, dpi=None,
-                walls=None, label=(), ruler=(), show=None, panels=None):
+                style=None, opacity=None, show_behind=False, clip=None, depth_cue=False, legend=None, scale_bar=False, dpi=None,
+                pieces=None, label=(), ruler=(), show=None, panels=None, **look):
         """Draws the surface into a .png of so many pixels.
 
         The keywords are the command line's options of pictures. `view` and `up` are directions (x, y, z), toward the
@@ -522,9 +523,9 @@ class Surface:
         path = os.fspath(path)
         if not path.endswith(".png"):
             raise ValueError("picture: expected a name that ends in .png")
-        self.save(path, replace=replace, panels=panels, walls=walls, label=label, ruler=ruler, show=show, width=int(width), view=view,
+        self.save(path, replace=replace, panels=panels, pieces=pieces, label=label, ruler=ruler, show=show, width=int(width), view=view,
                   up=up, turn=turn, background=background, plain_color=plain_color, style=style, opacity=opacity,
-                  all_walls=all_walls, clip=clip, depth_cue=depth_cue, legend=legend, scale_bar=scale_bar, dpi=dpi)
+                  show_behind=show_behind, clip=clip, depth_cue=depth_cue, legend=legend, scale_bar=scale_bar, dpi=dpi, **look)
 
     def _at(self, keyword, place):
         """A place, or the middle of a selection, as it is typed, and what is there."""
@@ -582,7 +583,7 @@ def surface(positions, radii, **options):
 
     Keywords:
     """
-    options, extra, areas_of, how = _split(options)
+    options, extra, areas_of, how = _split(_options.today(options))
     made = _made(_options.given(options, "surface", _options.MORE), extra, areas_of)
     for name, values in made[0]:
         if name == "color" and _options.of_file(values[0], ("none", "mean-curvature", "gaussian-curvature")):

@@ -55,7 +55,8 @@ def run_program(folder, options):
     words = [os.environ.get("VDB_MOLSURF", "vdb_molsurf"), "atoms.cif", "-o", "surface.ply", "-o", "surface.atoms.csv"]
     for name, value in options.items():
         switch = str(value).lower() in ("1", "true", "yes", "on") and name in (
-            "fill_cavities", "waters", "ions", "no_hetero", "no_hydrogens", "crisp")
+            "fill_cavities", "waters", "ions", "no_hetero", "no_hydrogens", "sharp_colors",
+            "crisp")  # its name of before
         words += ["--" + name.replace("_", "-")] + ([] if switch else [str(value)])
     try:
         done = subprocess.run(words, cwd=folder, capture_output=True, text=True)

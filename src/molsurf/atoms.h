@@ -248,12 +248,12 @@ struct SelectOptions {
 struct Coloring {
     std::optional<std::array<double, 2>> range; ///< values at the ends of the colours; none: most
                                                 ///< of the values lie between them
-    std::string palette;           ///< "viridis", for example; empty: that of the kind of values
-    bool byResidue = false;        ///< whether a residue's atoms have the mean of their values
-    bool flat = false;             ///< whether a point has the value of one atom, and not a blend
-    std::optional<double> outward; ///< how far outside of the surface a potential is taken [Å];
-                                   ///< none: the probe radius, of a surface that is a probe radius
-                                   ///< out itself 0
+    std::string palette;    ///< "viridis", for example; empty: that of the kind of values
+    bool byResidue = false; ///< whether a residue's atoms have the mean of their values
+    bool flat = false;      ///< whether a point has the value of one atom, and not a blend
+    std::optional<double> potentialOffset; ///< how far outside of the surface a potential is taken
+                                           ///< [Å]; none: the probe radius, of a surface that is a
+                                           ///< probe radius out itself 0
 };
 
 /// Labels, values and colours of balls, which products and files ask for.

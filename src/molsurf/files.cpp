@@ -84,9 +84,9 @@ public:
         checkArrays(shown.surface->mesh);
         if (!shown.atoms->placement.isWhole())
             whole_ = std::make_shared<const WholeBalls>(ballsOfWhole(*shown.atoms));
-        if (request.walls == Walls::All) return;
+        if (request.pieces == KeptPieces::All) return;
         own_ = shown.surface->mesh;
-        keepWalls(request.walls, Progress(), *own_);
+        keepPieces(request.pieces, Progress(), *own_);
     }
 
     const Mesh& mesh() const { return own_ ? *own_ : shown_.surface->mesh; }

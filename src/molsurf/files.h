@@ -60,7 +60,7 @@ void writePicture(const Mesh& mesh, const std::string& path, int width = 1200, b
 /// a page that shows it in a browser and names its atoms.
 /// @param[in] options   that the surface was made with
 /// @param[in] settings  names and values of the picture's options on the command line, such as
-///                      {"size", "600"} or {"walls", "outer"}; the value of a switch does not
+///                      {"size", "600"} or {"pieces", "outer"}; the value of a switch does not
 ///                      matter
 /// @param[in] replace   as above
 /// @throws Error(ErrorKind::Usage) if a setting is wrong
@@ -100,7 +100,7 @@ void writePicture(const std::vector<ShownSurface>& surfaces, const std::string& 
 /// @param[in] surfaces  one; of pictures, films and pages more, as writePicture() takes
 ///                      them
 /// @param[in] settings  names and values of the options of files and pictures on the command line,
-///                      such as {"walls", "outer"}, {"crisp", ""} or {"print-scale", "0.5"}
+///                      such as {"pieces", "outer"}, {"sharp-colors", ""} or {"print-scale", "0.5"}
 /// @param[in] replace   as above
 /// @throws Error(ErrorKind::Usage) if a setting is wrong or one that the file does not show, if the
 ///         name ends otherwise, or if the surface was made without what the file holds: tables

@@ -76,7 +76,7 @@ struct SurfaceSpec {
     EvolveOptions evolution;   ///< options of the flow, for the variational surface
     int splineLevel = 0;       ///< L in 0, 1, 2: the spline lies on voxels of edge 2^L h
     bool fillCavities = false; ///< whether the inner walls of closed cavities are removed
-    double minWall = 0.0;      ///< thinner parts are thickened to this [Å], up to 100; 0: none
+    double minThickness = 0.0; ///< thinner parts are thickened to this [Å], up to 100; 0: none
     double inset = 0.0; ///< how far inside of the place of its kind it lies [Å], >= 0; of kinds
                         ///< that lie inside of a probe's
     /// Whether balls with a resolution enclose the volume that they have without.

@@ -68,7 +68,7 @@ struct Products : KernelProducts {
     std::optional<SurfaceKind> areasOf;
     /// Whether there is a grid and a mesh of it. Without them the result has what is known in
     /// closed form, of the kinds SolventExcluded, SolventAccessible and VanDerWaals alone, with
-    /// none of split, surfaceOf, fields, fillCavities, minWall and curvatureTotals.
+    /// none of split, surfaceOf, fields, fillCavities, minThickness and curvatureTotals.
     bool grid = true;
 
     /// Tells whether parts have surfaces of their own.

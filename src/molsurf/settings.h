@@ -29,6 +29,12 @@ struct Settings {
     SurfaceOptions options;
     std::optional<GroupBy> colorGroups; ///< what has colours that are no ColorBy: those of groups
                                         ///< that are made for them
+
+    /// Whether copies of an assembly, which nodes place, have colours.
+    bool colorsCopies() const
+    {
+        return colorGroups && colorGroups->kind == GroupBy::Kind::Copy && atoms.assembly.repeats();
+    }
 };
 
 /// The value of a setting, as it is written into files.
@@ -77,8 +83,14 @@ struct OptionRow {
     /// Where in a value the path of a file begins that is read; npos: the value names none. Null:
     /// no value does.
     std::function<std::size_t(const std::string& value)> file = nullptr;
-    char letter = 0;    ///< of the command line, 'o'; 0: none
-    unsigned verbs = 0; ///< of the command line that take it
+    const char* former = nullptr; ///< a name that it had before, which is taken as well; null: none
+    char letter = 0;              ///< of the command line, 'o'; 0: none
+    unsigned verbs = 0;           ///< of the command line that take it
+
+    bool isNamed(const std::string& word) const
+    {
+        return word == name || (former && word == former);
+    }
 
     bool repeats() const { return type == SettingType::Rules; }
 
@@ -87,8 +99,8 @@ struct OptionRow {
                                                            !std::is_same_v<To, Derived>>>
     operator OptionRow<Derived>() const
     {
-        return {name, type, value, text,  preset,  words, set,    get,
-                low,  high, of,    kinds, shownIn, file,  letter, verbs};
+        return {name, type, value, text,    preset, words,  set,    get,  low,
+                high, of,   kinds, shownIn, file,   former, letter, verbs};
     }
 };
 

@@ -143,7 +143,8 @@ std::vector<ContactArea> contactAreas(const std::vector<Ball>& balls, double pro
 /// and pressure p on ball i is -(gamma area[i] + p volume[i]).
 ///
 /// @param[in] atoms  as for exposedAreas(); without units and copies
-/// @param[in] spec   not Gaussian, whose creases voxels do not resolve, and without minWall and
+/// @param[in] spec   not Gaussian, whose creases voxels do not resolve, and without minThickness
+/// and
 ///                   fillCavities; with a flow at rest in closed form
 /// @param[in] mesh   of that surface, with normals; not used for ses, sas and vdw
 /// @return in closed form exact but for rounding, where no arc or corner is about to come or go

@@ -98,10 +98,10 @@ CASES = [[f"{name} {more} {EVERY}"] for name, more in [
 ]] + [
     [f"{C} --fields all --color chain --curvature-totals {EVERY} -o a.obj -o a.stl -o a.off -o a.wrl -o a.vtk -o a.dx -o a.mrc"],
     [f"{C} --surface ses -o a.vert -o a.face -o a.poly -o a.msh -o a.msh2 -o a.3mf -o a.usda -o a.cxc -o a.glb"],
-    [f"{C} --surface ses --color element --crisp -o a.ply -o a.obj -o a.legend.svg -o a.pml"],
+    [f"{C} --surface ses --color element --sharp-colors -o a.ply -o a.obj -o a.legend.svg -o a.pml"],
     [f"{C} --surface sas --fields depth --areas atoms,residues,contacts -o a.json -o a.atoms.csv -o a.residues.csv -o a.contacts.csv -o a.cif"],
-    ["@1crn.pdb --surface ses --walls cavities --voxel 0.7 -o a.ply -o a.msh", f"{C} --walls outer --center --print-scale 0.5 --min-wall 2 -o b.stl"],
-    [f"{C} --color bfactor --palette cividis --flat-values -o a.ply -o a.legend.svg", "@selections.pqr --color charge --range -1,1 --outward 2 -o b.ply"],
+    ["@1crn.pdb --surface ses --pieces cavities --voxel 0.7 -o a.ply -o a.msh", f"{C} --pieces outer --center --print-scale 0.5 --min-thickness 2 -o b.stl"],
+    [f"{C} --color bfactor --palette cividis --flat-values -o a.ply -o a.legend.svg", "@selections.pqr --color charge --range -1,1 --potential-offset 2 -o b.ply"],
     [f"{C} --color {color} --surface vdw -o {color}.ply" for color in ("residue", "element", "radius", "depth", "mean-curvature", "hydrophobicity")],
     [f"{C} --surface {kind} -o {kind}.forces.csv" for kind in ("ses", "sas", "vdw", "variational", "smooth-sas")],
     ["held.xyzr --surface smooth-sas --voxel 0.4 -o a.forces.csv -o a.json", "held.xyzr --voxel 0.4 -o b.forces.csv -o b.json"],
@@ -126,7 +126,7 @@ CASES = [[f"{name} {more} {EVERY}"] for name, more in [
     ["batch list.txt --voxel 1 -O out --formats ply,json"],
     [PICTURE, f"{C} --color chain --style outline --depth-cue --clip 2 --legend on --scale-bar --size 200 -o b.png"],
     [f"{C} --color element --size 300 --panel ses --panel 1,0,0 --label A/10=here --ruler A/1..A/40 --show A/5-9=sticks --opacity 0.4 -o a.png"],
-    [f"{C} --color bfactor --view A/20 --up 0,1,1 --turn 20 --background black --show spheres --opacity 0.5 --all-walls --size 200 -o a.png -o a.view"],
+    [f"{C} --color bfactor --view A/20 --up 0,1,1 --turn 20 --background black --show spheres --opacity 0.5 --show-behind --size 200 -o a.png -o a.view"],
     [f"{C} --surface ses --color element --panel vdw -o a.html"],
 ]
 

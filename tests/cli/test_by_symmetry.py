@@ -155,8 +155,8 @@ class BySymmetry(ToolTest):
         size, = struct.unpack("<I", data[12:16])
         scene = json.loads(data[20:20 + size])
         self.assertEqual(sum("mesh" in node for node in scene["nodes"]), 120)
-        self.check(2, "shell.pdb", *ASSEMBLY, "--by-symmetry", "--weld", "--crisp", "-o", "a.ply",
-                   says="--weld and --crisp")
+        self.check(2, "shell.pdb", *ASSEMBLY, "--by-symmetry", "--weld", "--sharp-colors", "-o", "a.ply",
+                   says="--weld and --sharp-colors")
 
     def test_wrong_calls(self):
         self.shell()

@@ -41,7 +41,7 @@ class Cavities(ToolTest):
         call = [DATA / "4at1.ent.gz", "--surface", "ses", "--voxel", 0.7, "--color", "chain", "-q"]
         parts = []
         for walls in ("all", "outer", "cavities"):
-            self.check(0, *call, "--walls", walls, "-o", walls + ".ply", "-o", walls + ".glb", "-o", walls + ".json")
+            self.check(0, *call, "--pieces", walls, "-o", walls + ".ply", "-o", walls + ".glb", "-o", walls + ".json")
             parts.append(self.volume(walls + ".ply"))
         (all_, triangles), (outer, some), (cavities, others) = parts
         self.assertEqual(triangles, some + others)
@@ -53,22 +53,22 @@ class Cavities(ToolTest):
 
     def test_walls_in_other_files(self):
         call = [DATA / "1crn.pdb", "--surface", "ses", "--voxel", 0.7, "-q"]
-        self.check(0, *call, "--walls", "outer", "-o", "a.json")  # no mesh, and so nothing to leave out
-        self.check(0, *call, "--walls", "cavities", "-o", "a.msh", "-o", "a.poly")
+        self.check(0, *call, "--pieces", "outer", "-o", "a.json")  # no mesh, and so nothing to leave out
+        self.check(0, *call, "--pieces", "cavities", "-o", "a.msh", "-o", "a.poly")
         text = (self.folder / "a.msh").read_text()
         self.assertNotIn("outer wall", text)
         self.assertIn('$PhysicalNames\n1\n2 2 "cavity 1"\n', text)
         self.assertLess(max(map(abs, map(float, text.split("$Entities")[1].split("$End")[0].split()))), 1e3)
         self.assertIn("\n1\n1 ", (self.folder / "a.poly").read_text())  # one hole
-        self.check(0, *call, "--walls", "outer", "--require", "watertight,components=1,cavities=0", "-o", "a.ply")
+        self.check(0, *call, "--pieces", "outer", "--require", "watertight,components=1,cavities=0", "-o", "a.ply")
         self.check(3, *call, "--require", "cavities=0", "-o", "b.ply", says="--require")
 
     def test_walls_that_are_not(self):
         (self.folder / "one.xyzr").write_text("0 0 0 1.7\n")
-        self.check(1, "one.xyzr", "--walls", "cavities", "-o", "a.ply", says="the surface has no cavity")
-        self.check(0, "one.xyzr", "--walls", "outer", "-o", "b.ply")
-        self.check(2, "one.xyzr", "--walls", "inner", "-o", "a.ply", says="--walls: expected all or outer or cavities")
-        self.check(2, DATA / "1a8o.cif.gz", "--by-symmetry", "--assembly", 1, "--walls", "outer", "-o", "a.ply", says="--walls")
+        self.check(1, "one.xyzr", "--pieces", "cavities", "-o", "a.ply", says="the surface has no cavity")
+        self.check(0, "one.xyzr", "--pieces", "outer", "-o", "b.ply")
+        self.check(2, "one.xyzr", "--pieces", "inner", "-o", "a.ply", says="--pieces: expected all or outer or cavities")
+        self.check(2, DATA / "1a8o.cif.gz", "--by-symmetry", "--assembly", 1, "--pieces", "outer", "-o", "a.ply", says="--pieces")
         self.assertFalse((self.folder / "a.ply").exists())
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Borders between colours: exact in pictures and pages, and with --crisp in mesh files."""
+"""Borders between colours: exact in pictures and pages, and with --sharp-colors in mesh files."""
 
 import math
 import unittest
@@ -27,7 +27,7 @@ class Crisp(ToolTest):
         return [(v[:3], v[first:first + 3]) for v in vertices], triangles
 
     def test_meshes_are_cut_along_the_circle(self):
-        self.check(0, *TWO, "--crisp", "-o", "a.ply")
+        self.check(0, *TWO, "--sharp-colors", "-o", "a.ply")
         vertices, triangles = self.vertices("a.ply")
         self.assertEqual(len({color for _, color in vertices}), 2)
         for triangle in triangles:
@@ -76,7 +76,7 @@ class Crisp(ToolTest):
     def test_wrong_calls(self):
         self.check(2, *TWO[:-1], "class", "--group-by", "chain", "-o", "a.ply",
                    says="--group-by class --color group")
-        done = self.check(0, "two.pqr", "--voxel", "1", "--crisp", "-o", "a.ply", says="--crisp")
+        done = self.check(0, "two.pqr", "--voxel", "1", "--sharp-colors", "-o", "a.ply", says="--sharp-colors")
         self.assertIn("warning", done.stderr.decode())
 
 

@@ -69,7 +69,7 @@ class Forces(ToolTest):
 
     def test_wrong_calls(self):
         for words in (["--surface", "gaussian"], ["--surface", "variational", "--lambda", 0.1], ["--surface", "variational", "--flow", "paper"],
-                      ["--surface", "variational", "--steps", 3], ["--min-wall", 2, "--print-scale", 0.5], ["--fill-cavities"],
+                      ["--surface", "variational", "--steps", 3], ["--min-thickness", 2, "--print-scale", 0.5], ["--fill-cavities"],
                       ["--by-symmetry", "--assembly", 1, "--surface", "sas"], ["--split", "group", "--group-by", "chain"],
                       ["--coarse", "residue"]):
             with self.subTest(words):

@@ -281,7 +281,7 @@ class Formats(ToolTest):
         """The key has what the legend has, as far as there is room; cavities that are left out are in neither."""
         seen = []
         for call in (["1ubq.pdb", "--voxel", 1, "--pocket-cut", 0.5], ["1crn.pdb", "--voxel", 0.7],
-                     ["1crn.pdb", "--voxel", 0.7, "--walls", "outer"]):
+                     ["1crn.pdb", "--voxel", 0.7, "--pieces", "outer"]):
             self.check(0, DATA / call[0], *call[1:], "--surface", "ses", "--pockets", "--color", "pocket", "-o", "a.glb", "-o", "a.cxc",
                        "-o", "a.legend.svg", "--force")
             key, = (line for line in (self.folder / "a.cxc").read_text().splitlines() if line.startswith("key "))

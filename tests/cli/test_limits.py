@@ -266,7 +266,7 @@ class Limits(ToolTest):
 
     def test_a_dry_run_knows_of_products(self):
         """Each has a row with its cost, with a grid and without."""
-        for words in (("--remesh", "0.4", "-o", "a.ply"), ("--print-scale", "1", "--min-wall", "20", "-o", "a.stl"),
+        for words in (("--remesh", "0.4", "-o", "a.ply"), ("--print-scale", "1", "--min-thickness", "20", "-o", "a.stl"),
                       ("--surface", "sas", "--contacts", "atom", "-o", "a.contacts.csv"), ("--pockets", "--probe-out", "12", "-o", "a.pockets.csv")):
             words = (DATA / "4at1.ent.gz", "--voxel", "0.6", *words, "-o", "a.json")
             said = self.check(0, *words, "--force", "--dry-run").stderr.decode()
@@ -278,8 +278,8 @@ class Limits(ToolTest):
         """A product that needs the whole is refused with what it takes, and lengths have bounds."""
         self.refuse(DATA / "4at1.ent.gz", "--remesh", "0.05", "--memory", "1G", "-o", "a.ply", expected=2,
                     says=["--remesh needs the whole molecule at once, which takes about", "[hint: --memory "])
-        self.refuse(CRAMBIN, "--print-scale", "0.1", "--min-wall", "1000", "-o", "a.stl", expected=2,
-                    says=["--min-wall: expected at most 10 mm, which are 100 Å at --print-scale 0.1, got 1000"])
+        self.refuse(CRAMBIN, "--print-scale", "0.1", "--min-thickness", "1000", "-o", "a.stl", expected=2,
+                    says=["--min-thickness: expected at most 10 mm, which are 100 Å at --print-scale 0.1, got 1000"])
 
     def test_a_dry_run_knows_of_drawing(self):
         words = (CRAMBIN, *FAST, "-o", "a.png", "-o", "a.json", "--size", "1200")

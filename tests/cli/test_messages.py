@@ -52,7 +52,7 @@ ROWS = [
     ("IN --size 800x600 -o x.png", ["did you mean 800?"]),
     ("IN --view front -o x.png", ["did you mean z?"]),
     ("IN --legend yes -o x.png", ["did you mean on?"]),
-    ("IN --walls inner -o x.ply", ["did you mean cavities?"]),
+    ("IN --pieces inner -o x.ply", ["did you mean cavities?"]),
     ("IN --require closed -o x.ply", ["did you mean watertight?"]),
     ("IN --split chain -o x.ply", ["--group-by chain --split group"]),
     ("IN --group-by chains -o x.json", ["did you mean chain?"]),

@@ -138,9 +138,9 @@ class Pictures(ToolTest):
         _, faint = self.picture(*words, "--opacity", "0.2")
         mean = [sum(sum(p) for row in rows for p in row) / len(rows) for rows in (whole, faint)]
         self.assertGreater(mean[1], 1.05 * mean[0])
-        _, walls = self.picture(*words, "--opacity", "0.2", "--all-walls")
+        _, walls = self.picture(*words, "--opacity", "0.2", "--show-behind")
         self.assertLess(sum(sum(p) for row in walls for p in row), sum(sum(p) for row in faint for p in row))
-        self.check(0, CRAMBIN, *FAST, "-o", "b.png", "--all-walls", says="--all-walls is for --opacity")
+        self.check(0, CRAMBIN, *FAST, "-o", "b.png", "--show-behind", says="--show-behind is for --opacity")
         self.check(0, CRAMBIN, *FAST, "-o", "c.png", "--size", "60", "--clip", "-1000", says="--clip -1000: it cuts all of the surface away, expected more than -")
         said = self.check(0, CRAMBIN, *FAST, "-o", "d.png", "--size", "60", "--clip", "-6").stderr
         self.assertNotIn(b"warning", said)
@@ -194,12 +194,12 @@ class Pictures(ToolTest):
 
     def test_what_shows_is_not_warned_of(self):
         words = [CRAMBIN, *FAST, "--surface", "ses"]
-        for more in (["--walls", "outer", "-o", "a.glb", "-o", "a.html"], ["--walls", "outer", "-o", "a.usda"],
+        for more in (["--pieces", "outer", "-o", "a.glb", "-o", "a.html"], ["--pieces", "outer", "-o", "a.usda"],
                      ["--show", "sticks", "--opacity", "0.3", "--legend", "on", "--size", "300", "-o", "a.png"],
                      ["--for", "blender", "--legend", "on", "--size", "300", "-o", "b.png", "-o", "b.vdb"]):
             self.assertNotIn(b"warning", self.check(0, *words, *more).stderr)
         self.check(0, *words, "--legend", "on", "--size", "100", "-o", "c.png", says="--legend is for --color or --show")
-        self.check(0, *words, "--walls", "outer", "-o", "c.json", says="--walls is for .ply")
+        self.check(0, *words, "--pieces", "outer", "-o", "c.json", says="--pieces is for .ply")
 
     def test_atoms_beside_the_surface(self):
         """Sulphur of the disulfides, that no surface shows, has its colour in a faint one and where it is cut."""

@@ -75,7 +75,7 @@ class Pockets(ToolTest):
     def test_walls_of_pockets_have_colours(self):
         self.box("two.xyzr", lambda x: max(abs(abs(x[0]) - 3.5), abs(x[1]), abs(x[2])) < 2.6)
         self.check(0, "two.xyzr", "--surface", "ses", "--color", "pocket", "--voxel", "0.6", "-o", "two.ply", "-o", "two.png",
-                      "-o", "two.html", "-o", "two.pockets.csv", "--opacity", "0.3", "--all-walls", "--size", "200")
+                      "-o", "two.html", "-o", "two.pockets.csv", "--opacity", "0.3", "--show-behind", "--size", "200")
         rows = self.table("two.pockets.csv")
         self.assertEqual(len(rows), 2)
         names, vertices, _ = read_ply((self.folder / "two.ply").read_bytes())
@@ -177,7 +177,7 @@ class Pockets(ToolTest):
         self.assertEqual(self.names(), ["a.pocket2.ply"])
         self.check(1, *words, "-o", "a.pocket1.ply", "--force", says=["a.pocket1.ply", "twice"])
         self.check(2, *words, "--frames", "all", says="together")
-        self.check(2, words[0], "-o", "a.pockets.wrl", says=".pockets.csv")
+        self.check(2, words[0], "-o", "a.pockets.msh", says=".pockets.csv")
         self.check(2, words[0], "-o", "-", "--format", "pockets.ply", says="together")
         self.assertEqual(self.names(), ["a.pocket2.ply"])
 

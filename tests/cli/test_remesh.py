@@ -94,7 +94,7 @@ class Remesh(ToolTest):
                             (["--remesh", 1, "--adapt", 2, "-o", "a.ply"], "0.001 to 1"),
                             (["--remesh", 1, "--density", 1, "-o", "a.ply"], "together"),
                             (["--remesh", 1, "-o", "a.vdb"], "expected -o FILE.ply too"),
-                            (["--remesh", 1, "--crisp", "--color", "chain", "-o", "a.ply"], "together")):
+                            (["--remesh", 1, "--sharp-colors", "--color", "chain", "-o", "a.ply"], "together")):
             with self.subTest(words):
                 self.check(2, CRAMBIN, *words, says=says)
         for words in (["--by-symmetry", "--assembly", 1], ["--bricks", 2]):

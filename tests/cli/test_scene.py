@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MPL-2.0
-"""--for, --center, --print-scale and --min-wall: the .vdb and the meshes of other programs."""
+"""--for, --center, --print-scale and --min-thickness: the .vdb and the meshes of other programs."""
 
 import json
 import re
@@ -36,9 +36,9 @@ class Refused(ToolTest):
     def test_print(self):
         for value in ("0", "-1", "x", "1e9"):
             self.refuse("-o", "a.stl", "--print-scale", value, says="--print-scale")
-        self.refuse("-o", "a.stl", "--min-wall", "1", says="--print-scale")
+        self.refuse("-o", "a.stl", "--min-thickness", "1", says="--print-scale")
         for value in ("0", "-1", "x"):
-            self.refuse("-o", "a.stl", "--print-scale", "1", "--min-wall", value, says="--min-wall")
+            self.refuse("-o", "a.stl", "--print-scale", "1", "--min-thickness", value, says="--min-thickness")
 
     def test_existing_sidecar_stays(self):
         (self.folder / "a.usda").write_text("mine")
@@ -290,15 +290,15 @@ class Print(ToolTest):
             self.assertEqual(vdb.read(str(self.folder / f"{name}.vdb"), "Cd")["color_space"], "lin_rec709")
 
     def test_walls_are_millimetres_of_the_print(self):
-        self.check(0, CRAMBIN, *FAST, "--print-scale", "2", "--min-wall", "3", "-o", "wall.vdb", "-o", "wall.stl")
-        self.assertRegex(self.check(0, "info", "wall.vdb").stdout.decode(), r"option\.min-wall +1\.5\n")
+        self.check(0, CRAMBIN, *FAST, "--print-scale", "2", "--min-thickness", "3", "-o", "wall.vdb", "-o", "wall.stl")
+        self.assertRegex(self.check(0, "info", "wall.vdb").stdout.decode(), r"option\.min-thickness +1\.5\n")
 
     def test_a_thread_gets_the_wall(self):
         """Two large balls and a row of small ones between them."""
         balls = ["0 0 0 4", "20 0 0 4"] + [f"{x} 0 0 0.6" for x in range(4, 17)]
         (self.folder / "a.xyzr").write_text("\n".join(balls) + "\n")
         thread = {}
-        for name, words in (("thin", []), ("thick", ["--min-wall", "3"])):
+        for name, words in (("thin", []), ("thick", ["--min-thickness", "3"])):
             self.check(0, "a.xyzr", "--surface", "vdw", "--voxel", "0.25", "--print-scale", "1",
                        *words, "-o", f"{name}.ply", "-o", f"{name}.json")
             _, vertices, _ = read_ply((self.folder / f"{name}.ply").read_bytes())
@@ -316,7 +316,7 @@ class Print(ToolTest):
     def test_no_triangle_of_a_wall_is_empty(self):
         """Walls of 4 Å are eight voxels wide: voxels lie at whole distances from those in their middle."""
         for kind in ("ses", "vdw", "gaussian"):
-            self.check(0, CRAMBIN, "--surface", kind, "--print-scale", "0.5", "--min-wall", "2", "-o", "a.stl", "--force")
+            self.check(0, CRAMBIN, "--surface", kind, "--print-scale", "0.5", "--min-thickness", "2", "-o", "a.stl", "--force")
             stl = (self.folder / "a.stl").read_bytes()
             corners = [{stl[at + 12 * k:at + 12 * (k + 1)] for k in (1, 2, 3)} for at in range(84, len(stl), 50)]
             self.assertGreater(len(corners), 10000)

@@ -237,11 +237,25 @@ class Information(ToolTest):
         for option, output, are in ((["--plain-color", "red"], "a.ply", ".glb, .usda, .html, .png, .mp4, .webm and .gif"),
                                     (["--depth-cue"], "a.html", ".png"), (["--vdb-half"], "a.ply", ".vdb"),
                                     (["--curvature-totals"], "a.ply", ".json"),
-                                    (["--crisp", "--color", "chain"], "a.vdb", ".ply, .obj, .off, "),
+                                    (["--sharp-colors", "--color", "chain"], "a.vdb", ".ply, .obj, .vtk, "),
                                     (["--color", "chain"], "a.stl", "none of the files can hold colours"),
                                     (["--fields", "density"], "a.html", "none of the files can hold that")):
             self.check(0, CRAMBIN, "--voxel", "2", *option, "-o", output, "--force", says=[option[0], are])
         self.check(0, CRAMBIN, "--voxel", "2", "--vdb-half", "-o", "b.vdb")
+
+    def test_names_of_before_are_taken(self):
+        """Also in a file of options; messages have the names of today."""
+        for words in (["--walls", "outer"], ["--min-wall", "2", "--print-scale", "1"], ["--color", "chain", "--crisp"]):
+            new = [{"--walls": "--pieces", "--min-wall": "--min-thickness", "--crisp": "--sharp-colors"}.get(w, w) for w in words]
+            for name, call in (("old.ply", words), ("new.ply", new)):
+                self.check(0, CRAMBIN, "--voxel", "2", *call, "-o", name, "--force")
+            self.assertEqual(*((self.folder / name).read_bytes() for name in ("old.ply", "new.ply")), words)
+        (self.folder / "old.txt").write_text("walls = outer\n")
+        self.check(0, CRAMBIN, "--voxel", "2", "--config", "old.txt", "-o", "a.json", says="--pieces is for .ply")
+        self.check(2, CRAMBIN, "--walls", "outer", "--pieces", "all", "-o", "a.obj", says="--pieces is given twice")
+        self.check(2, CRAMBIN, "--walls", "inner", "-o", "a.obj", says="--pieces: expected all or outer or cavities")
+        self.assertNotIn(b"--walls", self.check(0, "--help-all").stdout)
+        self.assertIn(b"--pieces", self.check(0, "help", "walls").stdout)
 
     def test_defaults_are_not_warned_of(self):
         done = self.check(0, CRAMBIN, "--voxel", "2", "-o", "a.ply")

@@ -289,7 +289,7 @@ class Values(ToolTest):
     def test_a_potential(self):
         self.apart(["ALA", "ALA"])
         self.dx("phi.dx", lambda x, y, z: 0.5 * x - 0.25 * y + z)
-        self.colored("potential=phi.dx", "--outward", "0")
+        self.colored("potential=phi.dx", "--potential-offset", "0")
         for (x, y, z), value, _ in self.vertices("a.ply", "potential"):
             self.assertAlmostEqual(value, 0.5 * x - 0.25 * y + z, 3)
         # The distance from the first atom, a probe radius out.
@@ -300,7 +300,7 @@ class Values(ToolTest):
             self.assertAlmostEqual(value, x + 2 * (x - middle) / 1.7, 0)
         # Outside of the map there is no value.
         self.dx("small.dx", lambda x, y, z: x, points=6)
-        self.colored("potential=small.dx", "--outward", "0", "--range=-2,2", "-o", "a.vdb", "--fields", "Cd")
+        self.colored("potential=small.dx", "--potential-offset", "0", "--range=-2,2", "-o", "a.vdb", "--fields", "Cd")
         found = self.vertices("a.ply", "potential")
         self.assertEqual(self.at(found, 10.0)[1], {NONE})
         self.assertNotIn(NONE, self.at(found, 0.0)[1])

@@ -81,17 +81,6 @@ struct CommandLine : Request {
     std::vector<std::string> warnings;      ///< one line each
 
     bool has(const char* option) const { return given.count(option) > 0; }
-
-    /// Whether one of the surfaces is of such a kind, or the grid `sas` is.
-    template<typename Such>
-    bool builds(const Such& such) const
-    {
-        bool any = such(options.kind) ||
-                   (hasField(options.fields, "sas") && such(SurfaceKind::SolventAccessible));
-        for (const auto& [group, kind] : options.surfaceOf) any = any || such(kind);
-        for (const Panel& panel : panels) any = any || (panel.kind && such(*panel.kind));
-        return any;
-    }
 };
 
 } // namespace molsurf::tool

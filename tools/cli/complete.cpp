@@ -14,6 +14,7 @@
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/kernel/spline/curvature.h"
 #include "molsurf/molecule/selection/groups.h"
+#include "molsurf/request/resolve.h"
 #include "molsurf/request/run_outputs.h"
 #include "molsurf/show/color/color_table.h"
 #include "molsurf/show/io/output_file.h"
@@ -199,22 +200,6 @@ void takeInput(CommandLine& call, const std::string& what, const std::string& hi
     call.input = call.inputs[0];
 }
 
-// Says what changes none of the surfaces that are built.
-void warnOfKinds(CommandLine& call)
-{
-    for (const Setting& row : settingTable()) {
-        const std::vector<SurfaceKind>& kinds = row.kinds;
-        if (!call.has(row.name) || kinds.empty() || call.builds([&](SurfaceKind kind) {
-                return std::count(kinds.begin(), kinds.end(), kind) > 0;
-            }))
-            continue;
-        std::vector<std::string> words;
-        for (const SurfaceKind kind : kinds) words.push_back(nameOf(kind));
-        call.warnings.push_back(std::string("--") + row.name + " is for --surface " +
-                                joinWords(words, " or "));
-    }
-}
-
 // Sets what the files of APBS need: charges, and the solvent-excluded surface unless another one is
 // asked for. To be called before completeSurface().
 void completeSolver(CommandLine& call)
@@ -241,12 +226,13 @@ void completeScene(CommandLine& call)
         }
     }
     if (call.scene.host == Host::Usd) addSidecars(call);
-    if (!call.has("min-wall")) return;
-    call.options.minWall = call.wall / call.printScale;
-    if (call.options.minWall > maxWall)
-        usageError(formatted("--min-wall: expected at most %g mm, which are %g Å at --print-scale "
-                             "%g, got %g",
-                             maxWall * call.printScale, maxWall, call.printScale, call.wall));
+    if (!call.has("min-thickness")) return;
+    call.options.minThickness = call.wall / call.printScale;
+    if (call.options.minThickness > maxThickness)
+        usageError(
+            formatted("--min-thickness: expected at most %g mm, which are %g Å at --print-scale "
+                      "%g, got %g",
+                      maxThickness * call.printScale, maxThickness, call.printScale, call.wall));
 }
 
 // The eye looks across what is upright.
@@ -358,8 +344,6 @@ void completeAreas(CommandLine& call)
     call.labels.names = !tables.empty() || call.writes(ColorChoices);
     SurfaceOptions& options = call.options;
     options.interfaces |= tables.count("interfaces") > 0;
-    if (options.interfaces && call.groupsFile.empty() && !call.labels.groupBy && !call.colorGroups)
-        call.labels.groupBy = GroupBy{GroupBy::Kind::Chain};
     if (tables.empty()) return;
     options.contacts = tables.count("contacts") > 0;
     options.pockets |= tables.count("pockets") > 0;
@@ -373,13 +357,7 @@ void completeGroups(CommandLine& call)
     SurfaceOptions& options = call.options;
     if (!call.groupsFile.empty())
         call.labels.groups = readGroups(call.groupsFile, call.atoms.limits.maxInput);
-    if (call.colorGroups && !call.colorsCopies()) {
-        call.labels.groupBy = call.colorGroups;
-        options.color = ColorBy::Group;
-    }
-    const bool shown = call.scene.known() && !call.colorsCopies();
-    if ((shown || hasField(options.fields, "Cd")) && options.color == ColorBy::Nothing)
-        options.color = ColorBy::Chain;
+    resolveGroups(call, call.scene.known());
     const bool labels = std::any_of(options.fields.begin(), options.fields.end(),
                                     [](auto& field) { return findField(field)->needsLabels; });
     call.labels.labels = options.color != ColorBy::Nothing || labels || call.writes(ColorChoices);
@@ -426,13 +404,12 @@ void completeSurface(CommandLine& call)
     checkOptions(options);
     for (const Panel& panel : call.panels) checkOptions(panelOptions(options, panel));
 
-    warnOfKinds(call);
-    if (options.voxel > coarseVoxel)
-        call.warnings.push_back("--voxel " + shortest(options.voxel) +
-                                ": voxels this large cannot show the atoms");
-    if (call.has("epsilon") && call.builds(hasFlow) && options.epsilon < 0.5 * options.voxel)
-        call.warnings.push_back("--epsilon " + shortest(options.epsilon) +
-                                ": a tolerance below half a voxel is not resolved");
+    std::vector<SurfaceKind> kinds;
+    for (const Panel& panel : call.panels)
+        if (panel.kind) kinds.push_back(*panel.kind);
+    for (const std::string& warning : settingWarnings(
+             call, [&](const char* name) { return call.has(name); }, kinds))
+        call.warnings.push_back(withOptionNames(warning));
 }
 
 void completeBuild(CommandLine& call)

@@ -134,7 +134,7 @@ std::string topicText(const std::string& word)
     }
     for (const OptionGroup& group : optionGroups(0xff))
         for (const Option& option : group.options)
-            if (option.name == word || "--" + std::string(option.name) == word)
+            if (option.isNamed(word) || "--" + std::string(option.name) == word)
                 text += helpLine(option);
     return text;
 }

@@ -203,7 +203,7 @@ OptionGroup atomOptions()
     return {"Atoms",
             {setting("select", structures), setting("model", structures),
              setting("assembly", structures), setting("instances", Build),
-             setting("by-symmetry", Build), setting("weld", Build), setting("copies", structures),
+             setting("by-symmetry", Build), setting("copies", structures),
              setting("altloc", structures), setting("no-hydrogens", structures),
              setting("ions", structures), setting("hetero", structures),
              setting("no-hetero", structures), setting("waters", structures),
@@ -283,7 +283,7 @@ OptionGroup surfaceOptions()
             {setting("surface", structures), setting("voxel", structures),
              of(Build, shownIn(Levels, levels)), of(Convert, iso),
              setting("blobbiness", structures), setting("fill-cavities", wholes | Compare),
-             setting("walls", Build), setting("remesh", wholes | Convert),
+             setting("pieces", Build), setting("remesh", wholes | Convert),
              setting("density", wholes | Convert), setting("adapt", wholes | Convert),
              setting("fields", surfaces), attributes, shownIn(Grids, setting("vdb-half", surfaces)),
              shownIn(Numbers, setting("curvature-totals", wholes)),
@@ -297,10 +297,11 @@ OptionGroup surfaceOptions()
 OptionGroup resolutionOptions()
 {
     return {"Resolution",
-            {setting("epsilon", structures), setting("match", structures),
-             setting("resolution", structures), setting("coarse", structures),
-             setting("match-volume", wholes | Compare)},
-            {{"vdb_molsurf 4at1.ent.gz --resolution 8 -o blurred.glb", "blurred to 8 Å"},
+            {setting("epsilon", structures), setting("lambda", structures),
+             setting("match", structures), setting("resolution", structures),
+             setting("coarse", structures), setting("match-volume", wholes | Compare)},
+            {{"vdb_molsurf 1crn.pdb --lambda 0.02 -o 1crn.ply", "more tension: smoother"},
+             {"vdb_molsurf 4at1.ent.gz --resolution 8 -o blurred.glb", "blurred to 8 Å"},
              {"vdb_molsurf 4at1.ent.gz --coarse residue -o beads.glb",
               "two beads in the place of each residue"}}};
 }
@@ -334,8 +335,8 @@ OptionGroup colorOptions()
     return {"Colours",
             {setting("color", surfaces), of(Convert, shown), setting("range", surfaces | Convert),
              setting("palette", surfaces | Convert), setting("value-of", surfaces),
-             setting("flat-values", surfaces), setting("outward", surfaces),
-             setting("plain-color", wholes | Convert), setting("crisp", Build)},
+             setting("flat-values", surfaces), setting("potential-offset", surfaces),
+             setting("plain-color", wholes | Convert), setting("sharp-colors", Build)},
             {{"vdb_molsurf 4hhb.cif.gz --color chain -o chains.png", "a colour for each chain"},
              {"vdb_molsurf 1ubq.pdb --color bfactor --range 0,40 -o b.glb",
               "B factors from 0 to 40 Å^2"}}};
@@ -422,15 +423,15 @@ OptionGroup sceneOptions()
 
 OptionGroup printOptions()
 {
-    const Option wall =
-        stored(numberRow<CommandLine>(
-                   {"min-wall", "W", "thicken what is thinner than W mm; with --print-scale"},
-                   {1e-300, 1e300, "a positive number of mm"}, MOLSURF_OF(wall)),
-               MOLSURF_OF(options.minWall));
+    Option wall = numberRow<CommandLine>(
+        {"min-thickness", "W", "thicken what is thinner than W mm; with --print-scale"},
+        {1e-300, 1e300, "a positive number of mm"}, MOLSURF_OF(wall));
+    wall.former = "min-wall";
+    wall = stored(wall, MOLSURF_OF(options.minThickness));
     return {"Print",
             {setting("print-scale", wholes | Convert), of(wholes, wall)},
             {{"vdb_molsurf 1crn.pdb --print-scale 2 -o 1crn.3mf", "a print of 2 mm per Å"},
-             {"vdb_molsurf 1crn.pdb --print-scale 2 --min-wall 1 --walls outer -o 1crn.stl",
+             {"vdb_molsurf 1crn.pdb --print-scale 2 --min-thickness 1 --pieces outer -o 1crn.stl",
               "no wall thinner than 1 mm, without cavities"}}};
 }
 
@@ -559,7 +560,7 @@ OptionGroup pictureOptions()
     return {"Picture",
             {view, setting("up", draw), setting("turn", draw), setting("size", draw),
              setting("background", draw), setting("style", draw), showOption(), labelOption(),
-             rulerOption(), panelOption(), setting("opacity", draw), setting("all-walls", draw),
+             rulerOption(), panelOption(), setting("opacity", draw), setting("show-behind", draw),
              setting("clip", draw), setting("depth-cue", draw), setting("legend", draw),
              setting("scale-bar", draw), setting("dpi", draw), setting("turntable", draw)},
             {{"vdb_molsurf 4hhb.cif.gz --color chain --show \"resn HEM=sticks\" --opacity 0.5 "
@@ -568,20 +569,21 @@ OptionGroup pictureOptions()
              {"vdb_molsurf 1crn.pdb --turntable 36 -o turn.gif", "a film of one turn"}}};
 }
 
-OptionGroup flowOptions()
+/// For comparison and for old programs.
+OptionGroup comparisonOptions()
 {
-    return {
-        "Evolution",
-        {setting("lambda", structures), setting("regularizer", structures),
-         setting("flow", structures), setting("max-steps", structures & ~BricksPlan),
-         with(setting("steps", structures),
-              [](Option& o) {
-                  o.preset = std::to_string(BrickPlan::defaultSteps) + " in bricks, " +
-                             std::to_string(BrickPlan::defaultFrontSteps) + " at a large lambda";
-              }),
-         setting("tolerance", structures), setting("spline-level", wholes | Compare)},
-        {{"vdb_molsurf 1crn.pdb --lambda 0.01 -o 1crn.ply", "less tension: closer to the atoms"},
-         {"vdb_molsurf 1crn.pdb --flow newton -v -o 1crn.json", "explicit steps"}}};
+    return {"Comparison",
+            {setting("regularizer", structures), setting("flow", structures),
+             setting("max-steps", structures & ~BricksPlan),
+             with(setting("steps", structures),
+                  [](Option& o) {
+                      o.preset = std::to_string(BrickPlan::defaultSteps) + " in bricks, " +
+                                 std::to_string(BrickPlan::defaultFrontSteps) +
+                                 " at a large lambda";
+                  }),
+             setting("tolerance", structures), setting("spline-level", wholes | Compare),
+             setting("weld", Build)},
+            {{"vdb_molsurf 1crn.pdb --flow newton -v -o 1crn.json", "explicit steps"}}};
 }
 
 Option requireOption()
@@ -680,7 +682,7 @@ const std::vector<OptionGroup>& optionTable()
         outputOptions(),     atomOptions(),    frameOptions(), surfaceOptions(),
         resolutionOptions(), groupOptions(),   colorOptions(), areaOptions(),
         pocketOptions(),     poreOptions(),    sceneOptions(), printOptions(),
-        solverOptions(),     pictureOptions(), flowOptions(),  runOptions()};
+        solverOptions(),     pictureOptions(), runOptions(),   comparisonOptions()};
     return all;
 }
 
@@ -711,7 +713,7 @@ std::vector<OptionGroup> optionGroups(unsigned verb)
 
 bool isCalled(const Option& option, const std::string& name)
 {
-    return option.name == name || (option.letter && name == std::string(1, option.letter));
+    return option.isNamed(name) || (option.letter && name == std::string(1, option.letter));
 }
 
 const Option* findOption(Verb verb, const std::string& name)

@@ -40,7 +40,7 @@ const std::vector<OptionGroup>& optionTable();
 /// those of all verbs.
 std::vector<OptionGroup> optionGroups(unsigned verb);
 
-/// Whether a name is that of an option, or its letter.
+/// Whether a name is that of an option, one of before, or its letter.
 bool isCalled(const Option& option, const std::string& name);
 
 /// The option of a verb by its name or letter, or null.

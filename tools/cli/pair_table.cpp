@@ -49,9 +49,9 @@ std::vector<Pair> assemblyPairs()
                     }};
     };
     return {{"weld", Needs, {"by-symmetry"}},
-            {"weld", Excludes, {"crisp"}},
+            {"weld", Excludes, {"sharp-colors"}},
             {"lod", Needs, {"instances", "by-symmetry"}},
-            {"walls", Excludes, {"by-symmetry", "instances", "memory", "lod"}},
+            {"pieces", Excludes, {"by-symmetry", "instances", "memory", "lod"}},
             {"lod", Excludes, {"voxel"}, ": the first of --lod is the voxel"},
             {"instances",
              Excludes,
@@ -115,8 +115,8 @@ std::vector<Pair> areaPairs()
              "--steps]",
              rests},
             {"fill-cavities", Excludes, forces},
-            {"walls", Excludes, forces},
-            {"min-wall", Excludes, forces},
+            {"pieces", Excludes, forces},
+            {"min-thickness", Excludes, forces},
             {"contacts", IsFor, {{Areas, "contacts"}, "areas=contacts"}, ".contacts.csv"}};
 }
 
@@ -131,12 +131,13 @@ std::vector<Pair> meshPairs()
                     ": it makes a mesh",
                     nothing};
     };
-    return {ofMesh("remesh"),
-            ofMesh("density"),
-            {"remesh", Excludes, {"density"}, ": both say how large the triangles are"},
-            {"adapt", Needs, {"remesh", "density"}},
-            {"crisp", Excludes, {"remesh", "density"}, ": it cuts triangles where colours meet"},
-            {"lod", Excludes, {"remesh", "density"}, ": its triangles are as large as its voxels"}};
+    return {
+        ofMesh("remesh"),
+        ofMesh("density"),
+        {"remesh", Excludes, {"density"}, ": both say how large the triangles are"},
+        {"adapt", Needs, {"remesh", "density"}},
+        {"sharp-colors", Excludes, {"remesh", "density"}, ": it cuts triangles where colours meet"},
+        {"lod", Excludes, {"remesh", "density"}, ": its triangles are as large as its voxels"}};
 }
 
 std::vector<Pair> pocketPairs()
@@ -184,7 +185,7 @@ std::vector<Pair> surfacePairs()
              Excludes,
              {"epsilon", "lambda", "resolution"},
              ": it has values of its own for both"},
-            {"min-wall", Needs, {"print-scale"}},
+            {"min-thickness", Needs, {"print-scale"}},
             {"steps", Excludes, {"max-steps"}},
             {"no-hetero", Excludes, {"hetero", "ions"}},
             {"epsilon",
@@ -202,13 +203,13 @@ std::vector<Pair> surfacePairs()
                         !call.places.tunnelsFrom.empty() ||
                         call.options.color != ColorBy::Nothing; // --for chooses colours
              }},
-            {"all-walls", IsFor, {"opacity"}},
+            {"show-behind", IsFor, {"opacity"}},
             ofValues("range"),
             ofValues("palette"),
             {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
             {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
-            {"outward", IsFor, {"color=potential"}},
-            {"crisp",
+            {"potential-offset", IsFor, {"color=potential"}},
+            {"sharp-colors",
              IsFor,
              {},
              "--color in flat colours, as chain or element",
@@ -217,7 +218,7 @@ std::vector<Pair> surfacePairs()
                      call.options.color == ColorBy::Value && !call.labels.coloring.flat;
                  return !blended && kindOf(call.options.color).hasBorders != nullptr;
              }},
-            {"crisp",
+            {"sharp-colors",
              IsFor,
              {},
              "one surface, without --split and --surface-of",

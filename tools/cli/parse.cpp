@@ -54,6 +54,10 @@ po::options_description describe(Verb verb)
                 all.add_options()(names.c_str(), po::value<std::string>());
             else
                 all.add_options()(names.c_str(), po::bool_switch());
+            if (option.former && option.value)
+                all.add_options()(option.former, po::value<std::string>());
+            else if (option.former)
+                all.add_options()(option.former, po::bool_switch());
         }
     }
     all.add_options()("help,h", po::bool_switch())("help-all", po::bool_switch())(
@@ -211,7 +215,7 @@ void add(Verb verb, const po::parsed_options& parsed, GivenOptions& given,
             refuse(verb, "--" + name);
         if (!(known && known->value) && !option.value.empty() && !isOn(name, option.value[0]))
             continue; // a switch that is off
-        std::vector<std::string>& values = fresh[name];
+        std::vector<std::string>& values = fresh[known ? known->name : name];
         if (known && known->value && !known->repeats() && !values.empty())
             usageError("--" + name + " is given twice");
         if (known && known->value) {
@@ -285,12 +289,16 @@ std::string quoted(const std::string& word)
 
 void setOptions(const GivenOptions& given, CommandLine& call)
 {
-    call.given = given;
+    call.given.clear();
+    for (const auto& [name, values] : given) {
+        const Option* option = findOption(call.verb, name);
+        call.given[option ? option->name : name] = values;
+    }
     for (const OptionGroup& group : optionTable()) {
         for (const Option& option : group.options) {
             if (!(option.verbs & call.verb)) continue;
-            const auto found = given.find(option.name);
-            if (found == given.end()) continue;
+            const auto found = call.given.find(option.name);
+            if (found == call.given.end()) continue;
             if (option.value && found->second.empty()) // in a plan
                 usageError(std::string("--") + option.name + ": expected a value, got none");
             option.set(call, found->second);

@@ -15,7 +15,7 @@ using namespace holds;
 
 bool isCrisp(const Request& request, const Output& output)
 {
-    return output.holds(ColorChoices) || (request.crisp && !output.holds(Pixels));
+    return output.holds(ColorChoices) || (request.sharpColors && !output.holds(Pixels));
 }
 
 namespace

@@ -35,6 +35,7 @@
 #include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -338,8 +339,6 @@ std::vector<Format> areaFormats()
 {
     constexpr const char* ofAreas = "table of areas";
     constexpr const char *ofPore = "", *ofTunnels = ""; // the options of both say it
-    constexpr unsigned ofPocket = Areas | Numbered;
-    constexpr const char* perPocket = ""; // the option says it
     constexpr const char* withAreas = "areas as B factors";
     constexpr unsigned built = Build | Batch;
     return {
@@ -357,28 +356,40 @@ std::vector<Format> areaFormats()
          [](const Writing& w, OutputFile& file) {
              writePng(drawProfile(*w.result.report.pore, w.request.picture.width), file);
          }},
-        {"pore.ply", built, Areas, ofPore, "pore", writeTube},
-        {"pore.obj", built, Areas, ofPore, "pore", writeTube},
-        {"pore.glb", built, Areas, ofPore, "pore", writeTube},
         {"tunnel_frames.csv", Build, Areas | AllFrames, ofTunnels, "tunnel_frames", nullptr},
-        {"tunnels.ply", built, Areas, ofTunnels, "tunnels", writeTube},
-        {"tunnels.obj", built, Areas, ofTunnels, "tunnels", writeTube},
-        {"tunnels.glb", built, Areas, ofTunnels, "tunnels", writeTube},
         {"tunnels.pdb", built, Areas, ofTunnels, "tunnels", writeTunnelPdb},
         {"tunnels.cif", built, Areas, ofTunnels, "tunnels", writeTunnelCif},
         {"tunnels.cxc", built, Areas, ofTunnels, "tunnels",
          writeTunnelScript<writeTunnelsChimeraX>},
         {"tunnels.pml", built, Areas, ofTunnels, "tunnels", writeTunnelScript<writeTunnelsPymol>},
-        {"pockets.ply", Build, ofPocket, perPocket, "pockets", writeBody},
-        {"pockets.obj", Build, ofPocket, perPocket, "pockets", writeBody},
-        {"pockets.stl", Build, ofPocket, perPocket, "pockets", writeBody},
-        {"pockets.off", Build, ofPocket, perPocket, "pockets", writeBody},
-        {"pockets.vtk", Build, ofPocket, perPocket, "pockets", writeBody},
-        {"pockets.glb", Build, ofPocket, perPocket, "pockets", writeBody},
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
         {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},
         {"residues.cif", built, Areas, withAreas, "residues", writeAtoms<writeMmcif>}};
+}
+
+/// A product that has a mesh of its own.
+struct MeshedProduct {
+    const char* table;
+    unsigned verbs, holds;
+    void (*write)(const Writing&, OutputFile&);
+};
+
+/// The meshes of products in the formats of meshes. The products' options have their help.
+std::vector<Format> productMeshes()
+{
+    static const MeshedProduct products[] = {{"pockets", Build, Areas | Numbered, writeBody},
+                                             {"pore", Build | Batch, Areas, writeTube},
+                                             {"tunnels", Build | Batch, Areas, writeTube}};
+    static std::deque<std::string> words; // of which rows have pointers
+    std::vector<Format> rows;
+    for (const MeshedProduct& product : products)
+        for (const char* mesh : {"ply", "obj", "stl", "off", "wrl", "vtk", "glb", "3mf"}) {
+            words.push_back(product.table + std::string(".") + mesh);
+            rows.push_back({words.back().c_str(), product.verbs, product.holds, "", product.table,
+                            product.write});
+        }
+    return rows;
 }
 
 /// The row of a format of the library.
@@ -397,8 +408,8 @@ std::vector<Format> joined(std::vector<Format> all, const std::vector<Format>& s
     for (const SolverFile& file : solverFiles())
         all.push_back({file.word, Build, Solver, "", "", writeForSolver});
     all.insert(all.end(), second.begin(), second.end());
-    const std::vector<Format> areas = areaFormats();
-    all.insert(all.end(), areas.begin(), areas.end());
+    for (const auto& more : {areaFormats(), productMeshes()})
+        all.insert(all.end(), more.begin(), more.end());
     return all;
 }
 
@@ -414,8 +425,6 @@ const std::vector<Format>& formatTable()
                 ofMesh("ply", all),
                 ofMesh("obj", meshed),
                 ofMesh("stl", meshed),
-                ofMesh("off", meshed),
-                ofMesh("wrl", meshed),
                 ofMesh("vtk", meshed),
                 ofMesh("glb", meshed, writeGlb),
                 {"usda", Build,
@@ -427,6 +436,8 @@ const std::vector<Format>& formatTable()
                 ofMesh("face", meshed),
                 ofMesh("poly", meshed),
                 ofMesh("msh", meshed),
+                ofMesh("off", meshed),
+                ofMesh("wrl", meshed),
                 ofMesh("msh2", meshed),
                 {"nvdb", meshed, heldByNvdb, "level set and fields for GPUs", "", writeBareGrids},
                 {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},

@@ -125,12 +125,6 @@ struct Request : Settings, PictureSettings, FileSettings {
                            [=](const Output& output) { return output.holds(some); });
     }
 
-    /// Whether copies of an assembly, which nodes place, have colours.
-    bool colorsCopies() const
-    {
-        return colorGroups && colorGroups->kind == GroupBy::Kind::Copy && atoms.assembly.repeats();
-    }
-
     /// The point of the atoms that is 0 in meshes [Å].
     openvdb::Vec3d origin() const { return center ? scene.center : openvdb::Vec3d(0.0); }
 };

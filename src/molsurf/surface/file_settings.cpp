@@ -127,16 +127,20 @@ std::vector<FileSetting> meshFileSettings()
 {
     using namespace holds;
     return {
-        shownIn(Triangles | VertexCurvatures | Stage | ColorChoices | Pixels,
-                wordRow<FileSettings>(
-                    "walls",
-                    "closed pieces that meshes and pictures have: all; outer,\n"
-                    "without cavities; or cavities alone",
-                    std::vector{Walls::All, Walls::Outer, Walls::Cavities}, MOLSURF_OF(walls),
-                    {{"outside exterior", "outer"}, {"inner inside interior", "cavities"}})),
-        shownIn(CutBorders,
-                switchRow<FileSettings>("crisp", "mesh files: triangles are cut where colours meet",
-                                        MOLSURF_OF(crisp))),
+        shownIn(
+            Triangles | VertexCurvatures | Stage | ColorChoices | Pixels,
+            renamed("walls",
+                    wordRow<FileSettings>(
+                        "pieces",
+                        "closed pieces that meshes and pictures have: all; outer,\n"
+                        "without cavities; or cavities alone",
+                        std::vector{KeptPieces::All, KeptPieces::Outer, KeptPieces::Cavities},
+                        MOLSURF_OF(pieces),
+                        {{"outside exterior", "outer"}, {"inner inside interior", "cavities"}}))),
+        shownIn(CutBorders, renamed("crisp", switchRow<FileSettings>(
+                                                 "sharp-colors",
+                                                 "mesh files: triangles are cut where colours meet",
+                                                 MOLSURF_OF(sharpColors)))),
         shownIn(anyGrids | Triangles | VertexCurvatures,
                 stored(switchRow<FileSettings>("center",
                                                "the middle of the surface comes to the origin",
@@ -155,9 +159,11 @@ std::vector<FileSetting> meshFileSettings()
 
 } // namespace
 
-const char* nameOf(Walls walls)
+const char* nameOf(KeptPieces pieces)
 {
-    return walls == Walls::Outer ? "outer" : walls == Walls::Cavities ? "cavities" : "all";
+    return pieces == KeptPieces::Outer      ? "outer"
+           : pieces == KeptPieces::Cavities ? "cavities"
+                                            : "all";
 }
 
 const std::vector<FileSetting>& fileSettings()
@@ -173,16 +179,16 @@ const std::vector<FileSetting>& fileSettings()
     return all;
 }
 
-void keepWalls(Walls walls, const Progress& progress, Mesh& mesh)
+void keepPieces(KeptPieces kept, const Progress& progress, Mesh& mesh)
 {
-    if (walls == Walls::All || mesh.triangles.empty()) return; // no file has a mesh
+    if (kept == KeptPieces::All || mesh.triangles.empty()) return; // no file has a mesh
     const MeshPieces pieces = piecesOf(mesh, progress);
     std::vector<char> gone;
     for (const PieceMeasure& piece : pieces.measures)
-        gone.push_back((piece.volume < 0.0) != (walls == Walls::Cavities));
+        gone.push_back((piece.volume < 0.0) != (kept == KeptPieces::Cavities));
     removePieces(pieces, gone, mesh);
     if (mesh.triangles.empty())
-        throw Error(ErrorKind::Input, "`walls` cavities: the surface has no cavity");
+        throw Error(ErrorKind::Input, "`pieces` cavities: the surface has no cavity");
 }
 
 openvdb::Vec3d moveToOrigin(Mesh& mesh, const openvdb::Vec3d* center)

@@ -19,15 +19,15 @@ namespace molsurf
 {
 
 /// The closed pieces of the surface that meshes and pictures have.
-enum class Walls { All, Outer, Cavities };
+enum class KeptPieces { All, Outer, Cavities };
 
 /// Their words: all, outer, cavities.
-const char* nameOf(Walls walls);
+const char* nameOf(KeptPieces pieces);
 
 /// How files hold a surface.
 struct FileSettings {
-    bool crisp = false; ///< mesh files have the borders between colours cut
-    Walls walls = Walls::All;
+    bool sharpColors = false; ///< mesh files have the borders between colours cut
+    KeptPieces pieces = KeptPieces::All;
     Scene scene;             ///< of the .vdb and the node of the .glb
     bool forApbs = false;    ///< a folder gets the files that APBS reads
     bool center = false;     ///< the middle of the surface comes to the origin
@@ -54,7 +54,7 @@ const std::vector<FileSetting>& fileSettings();
 
 /// Removes the closed pieces that are not wanted: by the sign of their volume they are cavities.
 /// @throws Error(ErrorKind::Input) if none stays
-void keepWalls(Walls walls, const Progress& progress, Mesh& mesh);
+void keepPieces(KeptPieces kept, const Progress& progress, Mesh& mesh);
 
 /// Moves a mesh so that the middle of its box is the origin.
 /// @param[in] center  null, or the point that becomes the origin instead [Å]

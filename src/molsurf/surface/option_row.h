@@ -145,12 +145,20 @@ Row ofFile(Row row)
     return row;
 }
 
-/// The row of a name; null: there is none.
+/// The row of what had another name before.
+template<typename Row>
+Row renamed(const char* former, Row row)
+{
+    row.former = former;
+    return row;
+}
+
+/// The row of a name, or of one of before; null: there is none.
 template<typename To>
 const OptionRow<To>* findRow(const std::vector<OptionRow<To>>& rows, const std::string& name)
 {
     for (const OptionRow<To>& row : rows)
-        if (row.name == name) return &row;
+        if (row.isNamed(name)) return &row;
     return nullptr;
 }
 

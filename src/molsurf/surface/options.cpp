@@ -55,8 +55,8 @@ void checkOptions(const SurfaceOptions& options)
           "0 to 1e6", options.evolution.lambda);
     check(finite(options.inset) && options.inset >= 0.0 && options.inset <= 1.0, "`inset`",
           "0 to 1 Å", options.inset);
-    check(options.minWall >= 0.0 && options.minWall <= maxWall, "`minWall`", "0 to 100 Å",
-          options.minWall);
+    check(options.minThickness >= 0.0 && options.minThickness <= maxThickness, "`minThickness`",
+          "0 to 100 Å", options.minThickness);
     check(options.inset == 0.0 || options.voxel <= 0.5, "`match` ses: `voxel`", "at most 0.5 Å",
           options.voxel);
     check(options.evolution.tolerance > 0.0 && finite(options.evolution.tolerance), "`tolerance`",

@@ -247,9 +247,10 @@ const std::vector<PictureSetting>& pictureSettings()
             plainColorSetting(),
             styleSetting(),
             opacitySetting(),
-            switchRow<PictureSettings>("all-walls",
-                                       "`opacity` shows what is behind the nearest wall, too",
-                                       MOLSURF_OF(picture.allWalls)),
+            renamed("all-walls",
+                    switchRow<PictureSettings>(
+                        "show-behind", "`opacity` shows what is behind the nearest wall, too",
+                        MOLSURF_OF(picture.showBehind))),
             numberRow<PictureSettings>({"clip", "D",
                                         "cuts away what is nearer to the eye than the middle\n"
                                         "by more than D Å, and shows the inside"},

@@ -58,7 +58,7 @@ constexpr double timesOfAdapt = 2.7, bytesOfAdapt = 2.0;                // of th
 constexpr double bend = 1.5;         // radius [Å] that triangles of --adapt follow
 constexpr double morePerEdge = 1.18; // triangles than equal ones of this edge would be
 
-// measured: build --min-wall of 1CRN and 4AT1, walls of 2 to 100 Å on voxels of 0.5 and 1 Å
+// measured: build --min-thickness of 1CRN and 4AT1, walls of 2 to 100 Å on voxels of 0.5 and 1 Å
 constexpr double secondsPerWallLeaf = 2.5e-4, bytesPerWallLeaf = 6e3;
 
 // measured: build --resolution 5 or 10 --match-volume of 1A8O, 4AT1, 1AOI
@@ -230,7 +230,7 @@ Cost costOfWall(const BallSet&, const SurfaceOptions& options, const SurfaceSize
 {
     // The room within half a wall of a body: Steiner's formula, of a ball of the same area but for
     // the first term.
-    const double t = 0.5 * options.minWall, h = options.voxel;
+    const double t = 0.5 * options.minThickness, h = options.voxel;
     const double room = 2.0 * t * size.area + std::sqrt(4.0 * M_PI * size.area) * t * t +
                         4.0 / 3.0 * M_PI * t * t * t;
     const double leaves = room / std::pow(leafDim * h, 3);

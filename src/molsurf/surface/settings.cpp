@@ -342,12 +342,13 @@ std::vector<Setting> surfaceSettings()
                       number("blobbiness", "D", "decay of the Gaussians of `surface` gaussian",
                              MOLSURF_OF(options.blobbiness)))),
         flag("fill-cavities", "drop the inner walls", MOLSURF_OF(options.fillCavities)),
-        with(number("min-wall", "W", "thicken what is thinner than W Å, for a print",
-                    MOLSURF_OF(options.minWall)),
+        with(number("min-thickness", "W", "thicken what is thinner than W Å, for a print",
+                    MOLSURF_OF(options.minThickness)),
              [](Setting& row) {
                  row.preset = "";
-                 row.set = numberSetter("min-wall", 1e-300, maxWall, "above 0, up to 100 Å",
-                                        MOLSURF_OF(options.minWall));
+                 row.former = "min-wall";
+                 row.set = numberSetter("min-thickness", 1e-300, maxThickness,
+                                        "above 0, up to 100 Å", MOLSURF_OF(options.minThickness));
              }),
         fieldSetting(),
         flag("vdb-half", "floats of the .vdb in 16 bits, within 0.05 %: half the size",
@@ -623,18 +624,19 @@ std::vector<Setting> coloringSettings()
     valueOf.get = [](const Settings& s) {
         return std::string(s.labels.coloring.byResidue ? "residue" : "atom");
     };
-    Setting outward{"outward", SettingType::Number, "A",
-                    "potentials are taken A outside of the surface [Å]", "probe radius; sas: 0"};
-    outward.low = 0.0;
-    outward.high = 100.0;
-    outward.set = [](Settings& s, const Values& values) {
-        const double length = parsedValue<double>("outward", "a number", values.back());
+    Setting offset{"potential-offset", SettingType::Number, "A",
+                   "potentials are taken A outside of the surface [Å]", "probe radius; sas: 0"};
+    offset.former = "outward";
+    offset.low = 0.0;
+    offset.high = 100.0;
+    offset.set = [](Settings& s, const Values& values) {
+        const double length = parsedValue<double>("potential-offset", "a number", values.back());
         if (!(length >= 0.0 && length <= 100.0))
-            wrongValue("outward", "a number of Å from 0 to 100", values.back());
-        s.labels.coloring.outward = length;
+            wrongValue("potential-offset", "a number of Å from 0 to 100", values.back());
+        s.labels.coloring.potentialOffset = length;
     };
-    outward.get = [](const Settings& s) -> SettingValue {
-        const auto& length = s.labels.coloring.outward;
+    offset.get = [](const Settings& s) -> SettingValue {
+        const auto& length = s.labels.coloring.potentialOffset;
         if (length) return *length;
         return std::string("auto");
     };
@@ -642,7 +644,7 @@ std::vector<Setting> coloringSettings()
         range, palette, valueOf,
         flag("flat-values", "a point has the value of one atom, not a blend of nearby ones",
              MOLSURF_OF(labels.coloring.flat)),
-        outward};
+        offset};
     for (Setting& row : rows) row.of = SettingOf::Molecule;
     return rows;
 }
@@ -706,16 +708,17 @@ std::vector<Setting> pocketSettings()
                       "none", MOLSURF_OF(places.pocketAt));
     Setting pore = text("pore", "WAY",
                         "the pore, for the report, .pore.csv, profiles .pore.svg,\n"
-                        ".pore.png, tubes .pore.ply, .pore.obj, .pore.glb:\n"
+                        ".pore.png, a tube as .pore.ply, .obj, .stl, .glb or .3mf:\n"
                         "auto, an axis as z, or its ends, points or atoms, as\n"
                         "'0,0,-9 -> 0,0,9', 'resid 14 -> resid 43'",
                         "none", MOLSURF_OF(places.pore));
-    Setting tunnels = text("tunnels-from", "PLACE",
-                           "the ways out of a place, for the report, pictures and pages,\n"
-                           ".tunnels.csv, over frames .tunnel_frames.csv, and as\n"
-                           ".tunnels.ply, .obj, .glb, .pdb, .cif, .cxc, .pml: atoms, as\n"
-                           "'resid 197', or a point X,Y,Z",
-                           "none", MOLSURF_OF(places.tunnelsFrom));
+    Setting tunnels =
+        text("tunnels-from", "PLACE",
+             "the ways out of a place, for the report, pictures and pages,\n"
+             ".tunnels.csv, over frames .tunnel_frames.csv, and as\n"
+             ".tunnels.ply, .obj, .stl, .glb, .3mf, .pdb, .cif, .cxc, .pml:\natoms, as "
+             "'resid 197', or a point X,Y,Z",
+             "none", MOLSURF_OF(places.tunnelsFrom));
     at.of = pore.of = tunnels.of = SettingOf::Molecule;
     return {
         at,
@@ -727,7 +730,7 @@ std::vector<Setting> pocketSettings()
                MOLSURF_OF(options.tunnelProbe)),
         flag("pockets",
              "pockets of the surface, for the report, .pockets.csv, and a\n"
-             "mesh of each, as by .pockets.ply, .obj, .stl or .glb",
+             "mesh of each, as by .pockets.ply, .obj, .stl, .glb or .3mf",
              MOLSURF_OF(options.pockets)),
         number("probe-in", "R", "radius of the probe that gets into pockets [Å], 0.5 to 10",
                of(&Products::PocketRule::probeIn)),

@@ -216,7 +216,7 @@ double surroundingsOf(const SurfaceOptions& options)
     constexpr double largest = 2.5; // of atoms [Å]
     const double voxels = isUnion(options.kind) ? 8.0 : 12.0;
     const double surface =
-        2.0 * (largest + options.probe) + voxels * options.voxel + options.minWall;
+        2.0 * (largest + options.probe) + voxels * options.voxel + options.minThickness;
     return options.interfaces ? std::max(surface, 2.0 * largest + fitReach) : surface;
 }
 

@@ -859,7 +859,7 @@ BallSet describedBalls()
     atoms.resolutions = {{{"A", 6.0}, 120, 0.5}, {{"B/10-20", 9.5}, 80, -0.25}};
     atoms.coloring.range = {{-1.5, 2.5}};
     atoms.coloring.palette = "magma";
-    atoms.coloring.outward = 2.25;
+    atoms.coloring.potentialOffset = 2.25;
     atoms.coloring.byResidue = true;
     BallLabels& labels = atoms.labels.emplace();
     labels.chains = {"A", "B-2"};
@@ -931,7 +931,7 @@ TEST_F(Bricks, AtomsOnDiskAreThoseInMemory)
     EXPECT_EQ(all.resolutions[1].level, -0.25);
     EXPECT_EQ(all.coloring.range, atoms.coloring.range);
     EXPECT_EQ(all.coloring.palette, "magma");
-    EXPECT_EQ(all.coloring.outward, 2.25);
+    EXPECT_EQ(all.coloring.potentialOffset, 2.25);
     EXPECT_TRUE(all.coloring.byResidue);
     EXPECT_FALSE(all.coloring.flat);
     EXPECT_EQ(all.labels->chains, atoms.labels->chains);

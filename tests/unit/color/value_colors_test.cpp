@@ -74,7 +74,7 @@ TEST(PointValues, OfAMapAreOutsideAlongTheNormal)
         options.kind = kind; // a probe radius out itself
         EXPECT_FLOAT_EQ(at({1, 0, 0}), 2.0f);
     }
-    atoms.coloring.outward = 0.25;
+    atoms.coloring.potentialOffset = 0.25;
     EXPECT_FLOAT_EQ(at({1, 0, 0}), 2.25f);
 }
 

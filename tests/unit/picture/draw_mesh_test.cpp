@@ -175,7 +175,7 @@ TEST_F(TwoBalls, TheNearestWallAloneLetsThrough)
 TEST_F(TwoBalls, AllWallsLetThroughInTheRightOrder)
 {
     options.opacity = 0.5;
-    options.allWalls = true;
+    options.showBehind = true;
     const Picture picture = drawn("flat");
     // Four walls in the middle, of which each, seen from the front, takes half.
     const Vec3f b = linearLight(blue), r = linearLight(red);
@@ -188,7 +188,7 @@ TEST_F(TwoBalls, AllWallsLetThroughInTheRightOrder)
 TEST_F(TwoBalls, WhatIsSeenAslantHidesMore)
 {
     options.opacity = 0.5;
-    options.allWalls = true;
+    options.showBehind = true;
     const Picture picture = drawn("flat");
     const double x = 8.05,
                  facing = std::sqrt(1.0 - x * x / 100.0); // of both walls of the large ball
@@ -220,7 +220,7 @@ TEST_F(TwoBalls, WhatIsCutAwayCastsNoShadow)
 TEST_F(TwoBalls, WallsBehindWallsAreNotInTheDark)
 {
     options.opacity = 0.5;
-    options.allWalls = true;
+    options.showBehind = true;
     const Picture flat = drawn("flat"), soft = drawn("soft");
     for (std::size_t c = 0; c < 3; ++c) {
         const float light = linearLight(pixel(soft, 107, 101))[int(c)];

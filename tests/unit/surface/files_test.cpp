@@ -108,13 +108,14 @@ TEST(Files, HoldMeshesAsSettingsSay)
         writeSurface({shown}, folder / name, settings);
         return readMesh(folder / name);
     };
-    const Mesh all = read("a.ply", {}), crisp = read("a.ply", {{"crisp", ""}});
+    const Mesh all = read("a.ply", {}), crisp = read("a.ply", {{"sharp-colors", ""}});
     EXPECT_EQ(all.triangles.size(), made.surface.mesh.triangles.size());
     EXPECT_GT(crisp.triangles.size(), all.triangles.size());
-    const Mesh outer = read("a.obj", {{"walls", "outer"}});
-    const Mesh cavities = read("a.ply", {{"walls", "cavities"}, {"center", ""}});
+    const Mesh outer = read("a.obj", {{"pieces", "outer"}});
+    const Mesh cavities = read("a.ply", {{"pieces", "cavities"}, {"center", ""}});
     EXPECT_EQ(outer.triangles.size() + cavities.triangles.size(), all.triangles.size());
     EXPECT_LT(cavities.triangles.size(), outer.triangles.size());
+    EXPECT_EQ(read("a.obj", {{"walls", "outer"}}).triangles, outer.triangles); // its former name
     EXPECT_LT(boxOf(cavities).getCenter().length(), 1e-5);
     EXPECT_GT(boxOf(outer).getCenter().length(), 1.0);
     EXPECT_LT(boxOf(read("a.stl", {{"center", ""}})).getCenter().length(), 1e-4);
@@ -125,12 +126,12 @@ TEST(Files, HoldMeshesAsSettingsSay)
     const auto errorWith = [&](const std::string& name, const Words& settings) {
         return errorOf(ErrorKind::Usage, [&] { read(name, settings); });
     };
-    EXPECT_HAS(errorWith("b.stl", {{"crisp", ""}}), "`crisp`: ");
+    EXPECT_HAS(errorWith("b.stl", {{"sharp-colors", ""}}), "`sharpColors`: ");
     EXPECT_HAS(errorWith("b.ply", {{"print-scale", "2"}}), "b.ply does not show it");
     EXPECT_HAS(errorWith("b.ply", {{"size", "100"}}), "`size`: ");
     EXPECT_HAS(errorWith("b.png", {{"center", ""}}), "`center`: ");
-    EXPECT_HAS(errorWith("b.json", {{"walls", "outer"}}), "`walls`: ");
-    EXPECT_HAS(errorWith("b.stl", {{"walls", "inner"}}), "expected all or outer or cavities");
+    EXPECT_HAS(errorWith("b.json", {{"pieces", "outer"}}), "`pieces`: ");
+    EXPECT_HAS(errorWith("b.stl", {{"pieces", "inner"}}), "expected all or outer or cavities");
     EXPECT_HAS(errorWith("b.xyz", {}), "expected a name that ends in .vdb, .ply");
     EXPECT_HAS(errorWith("b.ply", {{"sise", "1"}}), "is named");
     EXPECT_HAS(errorOf(ErrorKind::Usage,
@@ -256,7 +257,7 @@ TEST(Files, HoldWhatApbsReads)
         return errorOf(ErrorKind::Usage, [&] { writeSurface({shown}, folder / "run2", settings); });
     };
     EXPECT_HAS(errorWith({{"pdie", "0"}}), "`pdie`: expected a number from 1 on");
-    EXPECT_HAS(errorWith({{"walls", "outer"}}), "`walls`: ");
+    EXPECT_HAS(errorWith({{"pieces", "outer"}}), "`pieces`: ");
     atoms.charges.reset();
     EXPECT_HAS(errorWith({}), "with their `charges`");
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"ion.pqr", "run"}));

@@ -341,7 +341,7 @@ TEST(SmoothForces, AreRefusedWhereNothingKnowsThem)
     SurfaceSpec fronts, walls, filled, gaussian;
     gaussian.kind = SurfaceKind::Gaussian;
     fronts.evolution.lambda = 0.1;
-    walls.minWall = 2.0;
+    walls.minThickness = 2.0;
     filled.kind = SurfaceKind::SolventExcluded;
     filled.fillCavities = true;
     for (const SurfaceSpec& spec : {fronts, walls, filled, gaussian}) {

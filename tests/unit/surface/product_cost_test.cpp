@@ -48,7 +48,7 @@ const std::vector<Length>& lengths()
              o.meshError = x;
          },
          0.5, 0.005},
-        {"min-wall", [](auto& o, double x) { o.minWall = x; }, 1.0, 50.0},
+        {"min-thickness", [](auto& o, double x) { o.minThickness = x; }, 1.0, 50.0},
         {"probe-out",
          [](auto& o, double x) {
              o.pockets = true;

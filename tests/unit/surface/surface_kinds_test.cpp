@@ -273,7 +273,7 @@ TEST(MinWall, OfASmallBallIsABallOfTheWall)
     for (const SurfaceKind kind : {SurfaceKind::Variational, SurfaceKind::SolventExcluded,
                                    SurfaceKind::VanDerWaals, SurfaceKind::SmoothAccessible}) {
         SurfaceOptions options = optionsFor(kind, 0.25);
-        options.minWall = 6.0;
+        options.minThickness = 6.0;
         const SurfaceReport s = test::runOn({{Vec3d(0.0), 1.0f, 0}}, options).report.surface;
         EXPECT_TRUE(s.closed && s.manifold) << nameOf(kind);
         EXPECT_EQ(s.eulerCharacteristic, 2) << nameOf(kind);

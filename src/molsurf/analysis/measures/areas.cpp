@@ -66,9 +66,9 @@ BallGradients closedGradients(const std::vector<Ball>& balls, const SurfaceSpec&
 /// Refuses surfaces that do not follow the atoms smoothly.
 void checkGradients(const BallSet& atoms, const SurfaceSpec& spec)
 {
-    const char* wrong = spec.fillCavities    ? "without `fillCavities`"
-                        : spec.minWall > 0.0 ? "without `minWall`"
-                                             : nullptr;
+    const char* wrong = spec.fillCavities         ? "without `fillCavities`"
+                        : spec.minThickness > 0.0 ? "without `minThickness`"
+                                                  : nullptr;
     if (wrong) throw Error(ErrorKind::Usage, std::string("forces: expected a surface ") + wrong);
     if (isGaussian(rowOf(spec.kind)))
         throw Error(ErrorKind::Usage, "forces: expected `surface` variational, ses, sas, vdw or "

@@ -118,16 +118,6 @@ public:
     std::int32_t indexOf(std::size_t place) const { return order_[place]; }
     std::size_t size() const { return balls_.size(); }
 
-    /// The number of balls that forEachNear() would visit.
-    std::size_t countNear(const openvdb::Vec3d& low, const openvdb::Vec3d& high, double gap) const
-    {
-        std::size_t count = 0;
-        forEachRun(low, high, gap, [&](std::int32_t begin, std::int32_t end) {
-            count += std::size_t(end - begin);
-        });
-        return count;
-    }
-
 private:
     /// Cells above each other, from the first that has a ball to the last in a block of 32: a
     /// shell is hollow, and cells without balls take memory too.

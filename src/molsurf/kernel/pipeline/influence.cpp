@@ -29,7 +29,7 @@ double Influence::ofSurface() const
 double Influence::ofLabel() const
 {
     // Points of the surface lie within a probe radius and the tolerance's swelling of their atom.
-    return 2.0 * spec_.probe + 4.0 * extent_.maxTolerance + 4.0 * spec_.voxel + spec_.minWall;
+    return 2.0 * spec_.probe + 4.0 * extent_.maxTolerance + 4.0 * spec_.voxel + spec_.minThickness;
 }
 
 double Influence::acrossGap() const

@@ -77,7 +77,7 @@ double offsetOf(const SurfaceSpec& spec)
 
 bool isClosedForm(const SurfaceSpec& spec)
 {
-    return isUnion(spec.kind) && spec.minWall == 0.0;
+    return isUnion(spec.kind) && spec.minThickness == 0.0;
 }
 
 bool isBoundary(const SurfaceSpec& spec)
@@ -93,7 +93,7 @@ double splineWidthOf(const SurfaceSpec& spec)
 BandWidths widthsOf(const SurfaceSpec& spec)
 {
     const double width = splineWidthOf(spec), offset = offsetOf(spec);
-    const double grown = 0.5 * spec.minWall;
+    const double grown = 0.5 * spec.minThickness;
     return {offset + width + grown, std::max(width - offset, spec.voxel) + grown};
 }
 

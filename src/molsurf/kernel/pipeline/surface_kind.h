@@ -23,8 +23,8 @@ struct KernelOptions : SurfaceSpec, KernelProducts {
 /// The range of SurfaceSpec::voxel [Å].
 constexpr double minVoxel = 0.05, maxVoxel = 10.0;
 
-/// The largest SurfaceSpec::minWall [Å]: by half of it the band about the surface is wider.
-constexpr double maxWall = 100.0;
+/// The largest SurfaceSpec::minThickness [Å]: by half of it the band about the surface is wider.
+constexpr double maxThickness = 100.0;
 
 /// Half width of the grid `surface` [voxel].
 constexpr double surfaceWidthVox = 3.0;

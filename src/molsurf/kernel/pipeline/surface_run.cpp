@@ -261,8 +261,8 @@ void SurfaceRun::distance()
     } else {
         S_ = distanceToInterface();
     }
-    if (options_.minWall > 0.0)
-        thickenWalls(S_, options_.minWall, splineWidthOf(options_), progress_);
+    if (options_.minThickness > 0.0)
+        thickenWalls(S_, options_.minThickness, splineWidthOf(options_), progress_);
     watch_.stop("redistance");
 }
 

@@ -260,11 +260,12 @@ std::string headerText(const BallSet& atoms, const GaussianExtent& extent)
                 {"extent", {extent.maxRadius, extent.maxGrownRadius, extent.maxTolerance}},
                 {"resolutions", std::move(resolutions)}};
     const Coloring& coloring = atoms.coloring;
-    out["coloring"] = {{"range", coloring.range ? Json(*coloring.range) : Json()},
-                       {"palette", coloring.palette},
-                       {"by_residue", coloring.byResidue},
-                       {"flat", coloring.flat},
-                       {"outward", coloring.outward ? Json(*coloring.outward) : Json()}};
+    out["coloring"] = {
+        {"range", coloring.range ? Json(*coloring.range) : Json()},
+        {"palette", coloring.palette},
+        {"by_residue", coloring.byResidue},
+        {"flat", coloring.flat},
+        {"outward", coloring.potentialOffset ? Json(*coloring.potentialOffset) : Json()}};
     if (atoms.labels) {
         const BallLabels& labels = *atoms.labels;
         for (const Group& g : labels.groups)
@@ -331,7 +332,7 @@ BallSet parseHeader(const Json& j)
     out.coloring.palette = coloring.at("palette");
     out.coloring.byResidue = coloring.at("by_residue");
     out.coloring.flat = coloring.at("flat");
-    out.coloring.outward = optional<double>(coloring.at("outward"));
+    out.coloring.potentialOffset = optional<double>(coloring.at("outward"));
     if (!j.contains("chains")) return out;
     BallLabels& labels = out.labels.emplace();
     labels.chains = j["chains"].get<std::vector<std::string>>();

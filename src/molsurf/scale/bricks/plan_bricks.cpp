@@ -68,7 +68,7 @@ constexpr double secondsPerComparedVoxel = 0.6e-6;                          // m
 // measured: convert of sas, 4AT1 and 1CRN at 1 and 0.7 Å, 300 to 2400 pixels: 1.2 to 1.5 times
 // the peak.
 constexpr double bytesPerPixel = 75.0, secondsPerPixel = 3e-6; // of a square picture
-// measured: build --opacity 0.4 --all-walls, or --show pockets, of 1CRN, 4AT1, 1EHZ, 1AOI, 1IGY,
+// measured: build --opacity 0.4 --show-behind, or --show pockets, of 1CRN, 4AT1, 1EHZ, 1AOI, 1IGY,
 // 1HZH, 4HHB, 1U19: 1.0 to 1.8 times the peak.
 constexpr double bytesPerLayeredPixel = 65.0;                              // more
 constexpr double bytesPerDrawnVoxel = 94.0, secondsPerDrawnVoxel = 0.5e-6; // rays find triangles

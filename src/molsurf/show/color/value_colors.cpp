@@ -182,7 +182,7 @@ double outwardOf(const Coloring& coloring, const SurfaceSpec& spec)
 {
     const KindRow& row = rowOf(spec.kind);
     const bool out = row.hasProbe && !row.hasOffset; // already
-    return coloring.outward.value_or(out ? 0.0 : spec.probe);
+    return coloring.potentialOffset.value_or(out ? 0.0 : spec.probe);
 }
 
 } // namespace molsurf

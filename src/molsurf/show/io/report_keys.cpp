@@ -66,7 +66,8 @@ constexpr ReportKey keyTable[] = {
      "Area of curved patches over the mesh of ses, sas and vdw, which bridges gaps narrower than a "
      "voxel; null for other kinds and without a mesh"},
     {"surface.triangle_area", "Å²",
-     "Area of the flat triangles, as in files, but for those that `crisp` cuts; null without a "
+     "Area of the flat triangles, as in files, but for those that `sharp_colors` cuts; null "
+     "without a "
      "mesh and in bricks"},
     {"surface.mesh_components", "",
      "Number of closed pieces of the mesh, walls of cavities included; null without a mesh"},

@@ -269,16 +269,16 @@ const std::vector<MeshFormat>& meshFormats()
     using namespace holds;
     constexpr unsigned curved = Triangles | Colors | CutBorders | VertexCurvatures;
     constexpr unsigned printed = Triangles | Colors | CutBorders | Millimetres;
-    constexpr const char* ofSolvers = "mesh for tetgen, Gmsh";
+    constexpr const char *ofSolvers = "mesh for tetgen, Gmsh", *old = "old meshes";
     static const std::vector<MeshFormat> table = {
         {"ply", curved, "mesh", [](const Mesh& m, const Title&, OutputFile& f) { writePly(m, f); }},
         {"obj", printed, "mesh",
          [](const Mesh& m, const Title& t, OutputFile& f) { writeObj(m, f, t.unit); }},
         {"stl", Triangles | Millimetres, "mesh",
          [](const Mesh& m, const Title& t, OutputFile& f) { writeStl(m, f, t.unit); }},
-        {"off", Triangles | Colors | CutBorders, "mesh",
+        {"off", Triangles | Colors | CutBorders, old,
          [](const Mesh& m, const Title&, OutputFile& f) { writeOff(m, f); }},
-        {"wrl", printed, "mesh",
+        {"wrl", printed, old,
          [](const Mesh& m, const Title& t, OutputFile& f) { writeWrl(m, f, t.unit); }},
         {"vtk", curved, "mesh",
          [](const Mesh& m, const Title& t, OutputFile& f) { writeVtk(m, t.name, f); }},
@@ -290,7 +290,7 @@ const std::vector<MeshFormat>& meshFormats()
          [](const Mesh& m, const Title&, OutputFile& f) { writePoly(m, f); }},
         {"msh", Triangles, ofSolvers,
          [](const Mesh& m, const Title&, OutputFile& f) { writeMsh4(m, f); }},
-        {"msh2", Triangles, ofSolvers,
+        {"msh2", Triangles, old,
          [](const Mesh& m, const Title&, OutputFile& f) { writeMsh2(m, f); }},
         {"glb", Colors | PlainColor | CutBorders | VertexCurvatures | SceneUnits | Copies | Levels,
          "mesh", [](const Mesh& m, const Title& t, OutputFile& f) { writeGlb(m, {t.name}, f); }},

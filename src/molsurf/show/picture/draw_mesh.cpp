@@ -264,8 +264,8 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     std::vector<Light> lights;
     {
         const bool bodies = options.model && !options.model->bodies.mesh.triangles.empty();
-        const bool behind = options.opacity < 1.0 && (options.allWalls || options.model);
-        const bool many = bodies || (options.opacity < 1.0 && options.allWalls);
+        const bool behind = options.opacity < 1.0 && (options.showBehind || options.model);
+        const bool many = bodies || (options.opacity < 1.0 && options.showBehind);
         const int layers = many ? mostLayers : behind ? 2 : 1;
         std::optional<Tracer> tracer(std::in_place, mesh, view, style, options);
         const Painter painter(view, style, options);

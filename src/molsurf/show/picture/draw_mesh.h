@@ -67,9 +67,9 @@ struct DrawOptions {
     const PictureStyle* style = nullptr; ///< null: the first of styleTable()
     std::optional<Color> glass{}; ///< if there is one: with `opacity` only what has this colour is
                                   ///< seen through
-    double opacity = 1.0;  ///< of a surface seen from the front, in (0, 1]; what is seen aslant is
-                           ///< more opaque
-    bool allWalls = false; ///< whether walls behind the nearest one are seen through it, too
+    double opacity = 1.0; ///< of a surface seen from the front, in (0, 1]; what is seen aslant is
+                          ///< more opaque
+    bool showBehind = false;    ///< whether walls behind the nearest one are seen through it, too
     std::optional<double> clip; ///< what is nearer to the eye than the middle by more than this is
                                 ///< cut away [Å], and the inside is seen there
     /// Who has which point, for colours that meet along exact lines; else those of vertices.

@@ -190,7 +190,7 @@ void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) cons
         }
         wallDepths = depths;
         for (std::size_t s = 0; s < packet; ++s)
-            if (front && !options_.allWalls && bodyPiece[s] != Seen::body)
+            if (front && !options_.showBehind && bodyPiece[s] != Seen::body)
                 wallDepths[s] = Seen::nothing; // behind the nearest wall there is no other
         const auto send = [&](const Shapes& shapes, const auto& begins, const auto& seenOf) {
             const EyeRays eye = from(at, begins);
