@@ -10,6 +10,7 @@
 #include <molsurf/request/request_table.h>
 #include <molsurf/request/resolve.h>
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
@@ -240,17 +241,24 @@ std::vector<std::int32_t> selected(const Molecule& molecule, const std::string& 
     return out;
 }
 
-/// The middle of the atoms that a selection takes, used or not, and the name of their residue.
-nb::tuple placeOf(const MadeSurface& surface, const std::string& selection)
+/// The atoms that a selection takes, used or not, where they are now.
+BallSet atomsOf(const MadeSurface& surface, const std::string& selection)
 {
     if (!surface.file)
-        throw Error(ErrorKind::Usage, "label and ruler: expected places (x, y, z) for a surface "
-                                      "that is not of a molecule of read(), got " +
-                                          selection);
+        throw Error(ErrorKind::Usage,
+                    "label, ruler and zoom: expected places (x, y, z) for a surface "
+                    "that is not of a molecule of read(), got " +
+                        selection);
     const BallSet& now = *surface.atoms;
     const bool one = now.placement.copies == 1 && now.record.beads == 0;
     const molsurf::Molecule file = one ? movedTo(now, *surface.file) : *surface.file;
-    const BallSet atoms = file.balls(besideSurface(surface.select, selection));
+    return file.balls(besideSurface(surface.select, selection));
+}
+
+/// The middle of the atoms that a selection takes, and the name of their residue.
+nb::tuple placeOf(const MadeSurface& surface, const std::string& selection)
+{
+    const BallSet atoms = atomsOf(surface, selection);
     const Vec3d middle = middleOf(atoms);
     const BallNames::Residue& first = atoms.names->residues[0];
     const std::string code(first.insertionCode == ' ' ? 0 : 1, first.insertionCode);
@@ -762,6 +770,13 @@ void addSurface(nb::module_& m)
                  return gradientsOf(s, {progress, threads});
              })
         .def("place", placeOf)
+        .def("places",
+             [](const MadeSurface& s, const std::string& selection) {
+                 std::vector<std::array<double, 3>> all;
+                 for (const Ball& ball : atomsOf(s, selection).balls)
+                     all.push_back({ball.center[0], ball.center[1], ball.center[2]});
+                 return all;
+             })
         .def("save", save)
         .def("state", packSurface);
 }

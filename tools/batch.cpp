@@ -182,8 +182,7 @@ std::string describe(const BatchEntry& entry)
 int batch(CommandLine call)
 {
     for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->get)
-            failIfStream(file.path, "a file, which each structure needs again");
+        if (file.option->get) failIfStream(file.path, "a file, which each structure needs again");
     call.identity = identityOf(call); // of all
     const std::vector<Task> tasks = tasksOf(call);
     MadeFolders folders;

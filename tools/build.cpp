@@ -187,6 +187,7 @@ void centerMesh(CommandLine& call, MolecularSurface& result, Mesh& bodies)
         note.from -= center;
         if (note.to) *note.to -= center;
     }
+    for (openvdb::Vec3d& place : call.picture.zoom) place -= center;
     if (call.picture.model) {
         auto model = std::make_shared<AtomModel>(*call.picture.model);
         for (MeshInstance& thing : model->instances) thing.translation -= center;

@@ -137,6 +137,7 @@ PanelSurface readPanel(const CommandLine& call, const Panel& what, const BallSet
     if (what.kind) return panel;
     panel.picture.model.reset();
     panel.picture.notes.clear();
+    if (call.superpose.empty()) panel.picture.zoom.clear(); // its atoms are elsewhere
     auto [balls, places, description, anchors, motion] =
         readBalls(what.file, call, terminal, &panel.picture, true);
     terminal.erase();

@@ -259,6 +259,7 @@ public:
                 if (!placeIn(place)) noted_.push_back(choose(place));
         if (!call_.viewed.empty())
             lookAt(call_, source_.balls(0, choose(call_.viewed)), source_.balls(0), call_.picture);
+        if (!call_.zoomed.empty()) zoomTo(source_.balls(0, choose(call_.zoomed)), call_.picture);
         if (call_.center) call_.scene.center = centerOf(source_.balls(0).balls);
         if (call_.writes(Views) && !call_.picture.frame) keepOneView();
         options_ = call_.frameDigest = optionsDigest(call_);
@@ -390,6 +391,7 @@ private:
             margin = std::max(margin, blurred * rule.resolution);
         const openvdb::Vec3d origin = call_.center ? call_.scene.center : openvdb::Vec3d(0.0);
         setUpright(source_.balls(0), call_.picture);
+        for (openvdb::Vec3d& place : call_.picture.zoom) place -= origin;
         const auto pointsOf = [&](std::size_t i) {
             std::vector<openvdb::Vec3d> points;
             const auto add = [&](const BallSet& atoms) {

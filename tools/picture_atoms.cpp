@@ -45,6 +45,13 @@ void addNotes(const std::vector<NoteText>& notes,
     }
 }
 
+void zoomTo(const BallSet& atoms, DrawOptions& picture)
+{
+    std::vector<openvdb::Vec3d> places;
+    for (const Ball& ball : atoms.balls) places.emplace_back(ball.center);
+    molsurf::zoomTo(std::move(places), picture);
+}
+
 void lookAt(const CommandLine& call, const BallSet& atoms, const BallSet& surface,
             DrawOptions& picture)
 {

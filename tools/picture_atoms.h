@@ -27,6 +27,9 @@ void addNotes(const std::vector<NoteText>& notes,
               const std::function<BallSet(const std::string& select)>& atomsOf,
               DrawOptions& picture);
 
+/// Zooms to atoms.
+void zoomTo(const BallSet& atoms, DrawOptions& picture);
+
 /// Looks at the side of the surface where the atoms of --view lie.
 /// @throws Error(ErrorKind::Input) if they lie on no side
 void lookAt(const CommandLine& call, const BallSet& atoms, const BallSet& surface,

@@ -82,6 +82,7 @@ DescribedBalls readBalls(const std::string& path, const CommandLine& call, Termi
     for (const NoteText& note : call.notes)
         if (!other || !isOfPlaces(note))
             isThere(other, [&] { addNotes({note}, chosen, *picture); });
+    if (!call.zoomed.empty()) isThere(other, [&] { zoomTo(chosen(call.zoomed), *picture); });
     if (!call.viewed.empty() && !other) lookAt(call, chosen(call.viewed), balls, *picture);
     return {std::move(balls), places, std::move(description), anchors, motion};
 }

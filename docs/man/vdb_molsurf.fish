@@ -109,6 +109,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l pdie -r -d 'relative 
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l sdie -r -d 'relative permittivity of the solvent'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l ion-conc -r -d 'concentration of a 1:1 salt [mol/L]'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l view -x -a 'auto' -d 'a direction toward the eye, X,Y,Z or an axis as z or -z;'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l zoom -r -d 'these atoms fill 80 % of a square frame; where something'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l up -r -d 'what is upright, such as z, the normal of a membrane;'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l turn -r -d 'turned by so many degrees about the upright'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l size -r -d 'width in pixels; the height follows the shape'

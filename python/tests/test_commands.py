@@ -75,6 +75,21 @@ PICTURE = {"view": (0.2, -1, 0.5), "up": (1, 0, 0), "turn": 30, "background": "#
            "opacity": 0.4, "show_behind": True, "clip": 2.5, "depth_cue": True, "legend": "on", "scale_bar": True, "dpi": 300}
 
 
+def test_zoom_is_that_of_the_command(crambin, tmp_path):
+    """To a selection, and to places."""
+    made = crambin.surface(voxel=1)
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--voxel", "1", "--size", "80", "-q", "--zoom", "resid 10-14", "-o",
+                    tmp_path / "c.png"], check=True)
+    chosen = crambin.select("resid 10-14").indices
+    for n, zoom in enumerate(("resid 10-14", crambin.positions[chosen])):
+        made.picture(tmp_path / f"{n}.png", 80, zoom=zoom)
+        assert (tmp_path / f"{n}.png").read_bytes() == (tmp_path / "c.png").read_bytes()
+    with pytest.raises(ValueError, match="zoom: expected a selection or places"):
+        made.picture(tmp_path / "d.png", 80, zoom=[])
+    with pytest.raises(ms.InputError, match="matches no atom"):
+        made.picture(tmp_path / "d.png", 80, zoom="chain Z")
+
+
 def test_pictures_are_those_of_the_command(tmp_path):
     """Each option of pictures draws what the command draws, and differs from the picture without it."""
     for color in ("chain", "none"):

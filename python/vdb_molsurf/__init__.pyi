@@ -124,7 +124,7 @@ class Surface:
              fps: float | None = None, contacts: Literal["atom", "residue", "chain"] | None = None, width: int | None = None,
              view: ArrayLike | Path | None = None, up: ArrayLike | None = None, turn: float | None = None,
              background: str | None = None, plain_color: str | None = None, style: str | None = None,
-             opacity: float | None = None, show_behind: bool = False, clip: float | None = None, depth_cue: bool = False,
+             opacity: float | None = None, show_behind: bool = False, clip: float | None = None, zoom: ArrayLike | str | None = None, depth_cue: bool = False,
              legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False, dpi: float | None = None) -> None: ...
     def to_vdb(self, path: Path, scene: str | None = None, *, replace: bool = True, center: bool = False,
                fog_density: float | None = None, ids: Literal["int", "float"] | None = None, one_box: bool = False,
@@ -134,7 +134,7 @@ class Surface:
     def view(self, height: int = 480, panels: Panels = None) -> Page: ...
     def picture(self, path: Path, width: int = 1200, *, replace: bool = True, view: ArrayLike | Path | None = None,
                 up: ArrayLike | None = None, turn: float | None = None, background: str | None = None, plain_color: str | None = None,
-                style: str | None = None, opacity: float | None = None, show_behind: bool = False, clip: float | None = None,
+                style: str | None = None, opacity: float | None = None, show_behind: bool = False, clip: float | None = None, zoom: ArrayLike | str | None = None,
                 depth_cue: bool = False, legend: Literal["auto", "on", "off"] | None = None, scale_bar: bool = False,
                 dpi: float | None = None, pieces: Pieces = None,
                 label: Labels = (), ruler: Rulers = (),

@@ -173,7 +173,7 @@ def _named(surface, panels):
 # The options of pictures by their keywords.
 LOOK = {"width": "size", **{name: name.replace("_", "-") for name in (
     "view", "up", "turn", "background", "plain_color", "style", "opacity", "show_behind", "clip", "depth_cue", "legend", "scale_bar",
-    "dpi", "pieces", "sharp_colors")}}
+    "dpi", "zoom", "pieces", "sharp_colors")}}
 
 
 class Surface:
@@ -444,6 +444,8 @@ class Surface:
         unknown = sorted(set(look) - set(LOOK))
         if unknown:
             raise TypeError(f"save() got an unexpected keyword argument '{unknown[0]}'")
+        if look.get("zoom") is not None:
+            look["zoom"] = self._places("zoom", look["zoom"])
         given = {"center": center, "print-scale": print_scale, "for": scene, "turntable": turntable,
                  "fps": fps, "contacts": contacts, **{LOOK[name]: value for name, value in look.items()}}
         self._save(path, replace, given, panels, show, self._notes(label, ruler))
@@ -505,13 +507,14 @@ class Surface:
         return "<table>" + "".join(f"<tr><th>{name}</th><td>{value}</td></tr>" for name, value in rows) + "</table>"
 
     def picture(self, path, width=1200, *, replace=True, view=None, up=None, turn=None, background=None, plain_color=None,
-                style=None, opacity=None, show_behind=False, clip=None, depth_cue=False, legend=None, scale_bar=False, dpi=None,
+                style=None, opacity=None, show_behind=False, clip=None, zoom=None, depth_cue=False, legend=None, scale_bar=False, dpi=None,
                 pieces=None, label=(), ruler=(), show=None, panels=None, **look):
         """Draws the surface into a .png of so many pixels.
 
         The keywords are the command line's options of pictures. `view` and `up` are directions (x, y, z), toward the
         eye and upward; `view` may be the path of a .view, too. `turn` is in degrees, `clip` in Å. None: the default.
 
+        zoom: atoms that fill the frame, a selection as "resid 5-9", or their places (n, 3) [Å].
         label: texts at places in Å or at atoms, as [((x, y, z), "active site"), ("resid 5", "gate")]; a selection alone, as
         "resid 5", has the name of its first residue.
         ruler: lines between places or atoms with their length, as [((x, y, z), "resid 5")].
@@ -525,7 +528,7 @@ class Surface:
             raise ValueError("picture: expected a name that ends in .png")
         self.save(path, replace=replace, panels=panels, pieces=pieces, label=label, ruler=ruler, show=show, width=int(width), view=view,
                   up=up, turn=turn, background=background, plain_color=plain_color, style=style, opacity=opacity,
-                  show_behind=show_behind, clip=clip, depth_cue=depth_cue, legend=legend, scale_bar=scale_bar, dpi=dpi, **look)
+                  show_behind=show_behind, clip=clip, zoom=zoom, depth_cue=depth_cue, legend=legend, scale_bar=scale_bar, dpi=dpi, **look)
 
     def _at(self, keyword, place):
         """A place, or the middle of a selection, as it is typed, and what is there."""
@@ -533,6 +536,15 @@ class Surface:
             return _place(keyword, place), ""
         middle, residue = self._core.place(place)
         return _place(keyword, middle), residue
+
+    def _places(self, keyword, places):
+        """Places, or those of a selection's atoms, as they are typed."""
+        if isinstance(places, str):
+            places = self._core.places(places)
+        rows = _arrays.numbers(places, keyword)
+        if rows.ndim not in (1, 2) or rows.shape[-1] != 3 or rows.size == 0:
+            raise ValueError(f"{keyword}: expected a selection or places (n, 3), got an array {rows.shape}")
+        return ";".join(_place(keyword, row) for row in rows.reshape(-1, 3))
 
     def _notes(self, label, ruler):
         """Labels and rulers as options."""

@@ -81,6 +81,31 @@ class Page(ToolTest):
         self.assertEqual({e["name"] for e in header["modes"][0]["entries"]}, {"C", "N", "O", "S"})
         self.assertEqual([e["name"] for e in header["modes"][2]["entries"]], ["<b>&</b>", "last"])
 
+    def test_zoom(self):
+        """The page begins with the frame of pictures; its numbers are relative to the first level's middle."""
+        header = json.loads(element(self.page(CRAMBIN, *FAST, "--zoom", "resid 10-14", "-o", "a.view"), "header"))
+        view = json.loads((self.folder / "a.view").read_text())
+        _, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        middle = [(min(v[i] for v in vertices) + max(v[i] for v in vertices)) / 2 for i in range(3)]
+        self.assertAlmostEqual(header["zoom"]["side"], view["width"], delta=1e-6)
+        for given, center, origin in zip(header["zoom"]["center"], view["center"], middle):
+            self.assertAlmostEqual(given, center - origin, delta=1e-3)
+        self.assertIsNone(json.loads(element(self.page(CRAMBIN, *FAST), "header"))["zoom"])
+
+    @needs("chromium")
+    def test_zoom_in_a_browser(self):
+        """Balls of atoms whose centres fill 0.8 of the pane's smaller side fill somewhat more."""
+        self.page(CRAMBIN, *FAST, "--surface", "vdw", "--select", "resid 10-14", "--zoom", "resid 10-14", "--view", "z")
+        with self.opened((700, 600)) as page:
+            self.ready(page)
+            (left, top, right, bottom), rows = self.shown(page)
+        columns = [x for xs in rows.values() for x in xs]
+        lines = [y for y, xs in rows.items() if xs]
+        side = min(right - left, bottom - top)
+        wide = max(max(columns) - min(columns), max(lines) - min(lines)) / side
+        self.assertGreater(wide, 0.85)
+        self.assertLess(wide, 1.25)
+
     def test_size(self):
         self.page(*DIMER)
         viewer = 600_000

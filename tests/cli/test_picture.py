@@ -3,6 +3,7 @@
 
 import json
 import os
+import struct
 import unittest
 import xml.etree.ElementTree
 
@@ -146,6 +147,49 @@ class Pictures(ToolTest):
         self.assertNotIn(b"warning", said)
         self.check(2, CRAMBIN, "-o", "b.png", "--opacity", "0", says="0.01 to 1")
         self.check(2, CRAMBIN, "-o", "b.png", "--clip", "near", says="a number of Å")
+
+    def extents(self, atoms, view):
+        """Widths of atoms as a .view sees them, and how far their middle is from its own [Å]."""
+        right = [view["up"][i - 2] * view["to_eye"][i - 1] - view["up"][i - 1] * view["to_eye"][i - 2] for i in range(3)]
+        spans = []
+        for axis in (right, view["up"]):
+            seen = [sum(a * (x - c) for a, x, c in zip(axis, atom, view["center"])) for atom in atoms]
+            spans.append((max(seen) - min(seen), abs(max(seen) + min(seen)) / 2))
+        return max(width for width, _ in spans), max(off for _, off in spans)
+
+    def test_zoom_fills_the_frame(self):
+        """With the atoms' own box, whatever the direction, also in panels and frames; an atom has a frame of 5 Å."""
+        site = [tuple(float(line[k:k + 8]) for k in (30, 38, 46)) for line in CRAMBIN.read_text().splitlines()
+                if line.startswith("ATOM") and 10 <= int(line[22:26]) <= 14]
+        for more in ([], ["--view", "z"], ["--view", "A/12"], ["--view", "0.3,-0.2,1", "--up", "1,0,0"], ["--panel", "x"]):
+            self.check(0, CRAMBIN, *FAST, "--zoom", "resid 10-14", *more, "-o", "a.view", "-o", "a.png", "--size", "100", "--force")
+            view = json.loads((self.folder / "a.view").read_text())
+            wide, off = self.extents(site, view)
+            self.assertAlmostEqual(wide / view["width"], 0.8, delta=1e-6)
+            self.assertEqual(view["width"], view["height"])
+            self.assertLess(off, 1e-6)
+        self.check(0, CRAMBIN, *FAST, "--zoom", "index 3", "-o", "b.view")
+        self.assertAlmostEqual(json.loads((self.folder / "b.view").read_text())["width"], 5.0)
+        self.check(0, CRAMBIN, *FAST, "--view", "b.view", "--zoom", "all", "-o", "c.view")  # and not the frame of b.view
+        self.assertGreater(json.loads((self.folder / "c.view").read_text())["width"], 25)
+        turned = [*FAST, "--zoom", "resid 10-14", "--turntable", "3", "-o", "t.png", "--size", "64", "--legend", "off"]
+        self.check(0, CRAMBIN, *turned)
+        self.assertEqual({struct.unpack(">II", (self.folder / f"t.000{n}.png").read_bytes()[16:24]) for n in (1, 2, 3)}, {(64, 64)})
+        self.check(0, DATA / "1d3z.pdb.gz", "--voxel", "2", "--frames", "1-2", "--zoom", "resid 10-14", "-o", "f.view")
+        views = [json.loads((self.folder / f"f.000{n}.view").read_text()) for n in (1, 2)]
+        self.assertEqual(views[0], views[1])
+        self.assertLess(views[0]["width"], 30)
+        self.check(1, CRAMBIN, *FAST, "--zoom", "chain Z", "-o", "d.png", says="matches no atom")
+
+    def test_zoom_cuts_away_what_hides_the_site(self):
+        words = [CRAMBIN, *FAST, "--zoom", "resid 10-14", "--size", "100", "--legend", "off"]
+        self.check(0, *words, "--view", "A/12", "-o", "a.view")
+        eye = json.loads((self.folder / "a.view").read_text())["to_eye"]
+        for sign, hidden in ((1, False), (-1, True)):
+            look = ["--view=" + ",".join(str(sign * x) for x in eye)]
+            (_, opened), (_, closed), (_, cut) = (self.picture(*words, *look, *more) for more in ([], ["--clip", "1000"], ["--clip", "0"]))
+            self.assertEqual(opened != closed, hidden)
+            self.assertEqual(opened == cut, hidden)
 
     def test_a_cut_of_copies_is_that_of_the_whole(self):
         """The colours inside of a copy are those of its own place."""

@@ -168,6 +168,7 @@ def surface_options(rng):
         lambda: ["--print-scale", "1", "--min-thickness", rng.choice(("1", "5", "60", "1e5"))],
         lambda: ["--spline-level", rng.choice(("1", "2"))],
         lambda: ["--view", rng.choice(("1,0,0", "auto", "0,0,0"))],
+        lambda: ["--zoom", rng.choice(("1", "A/1-3", "all", "0,0,0", "1,2,3;4,5,6;", "within 5 of index 0"))],
         lambda: ["--size", rng.choice(("16", "60"))],
         lambda: ["--style", rng.choice(("soft", "glossy", "outline", "flat"))],
         lambda: ["--opacity", number(rng, "0.2", "0.7", "1")],

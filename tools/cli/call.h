@@ -56,6 +56,7 @@ struct CommandLine : Request {
     std::vector<std::string> areas; ///< tables of areas in the report: "atoms", "residues", ...
     double wall = 0.0;              ///< least thickness of a print [mm]; 0: none
     std::string viewed;             ///< atoms that face the eye, a selection; empty: none
+    std::string zoomed;             ///< atoms that fill the frame, a selection; empty: none
     std::vector<ShowRule> shows;    ///< atoms that pictures show beside the surface
     std::size_t shownPockets = 0;   ///< how many bodies of pockets pictures and pages show at most,
                                     ///< the largest ones

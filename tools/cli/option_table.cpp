@@ -557,8 +557,12 @@ OptionGroup pictureOptions()
     constexpr unsigned draw = wholes | Convert | Compare;
     Option view = setting("view", draw);
     view.set = setView;
+    Option zoom = setting("zoom", wholes);
+    zoom.set = [](CommandLine& call, const Values& values) {
+        call.zoomed = takeZoom(values.back(), call.picture) ? "" : values.back();
+    };
     return {"Picture",
-            {view, setting("up", draw), setting("turn", draw), setting("size", draw),
+            {view, zoom, setting("up", draw), setting("turn", draw), setting("size", draw),
              setting("background", draw), setting("style", draw), showOption(), labelOption(),
              rulerOption(), panelOption(), setting("opacity", draw), setting("show-behind", draw),
              setting("clip", draw), setting("depth-cue", draw), setting("legend", draw),

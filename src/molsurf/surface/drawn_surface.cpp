@@ -234,6 +234,11 @@ HtmlPage pageOf(const DrawnSurface& surface, const std::string& title, const std
                        : offeredLegends(surface.options.color, atoms, surface.mesh, progress);
     page.plain = surface.look.plain;
     page.axes = viewAxes(surface.mesh, view);
+    if (!view.zoom.empty()) {
+        const View shown = chooseView(surface.mesh, view);
+        page.zoom =
+            PictureFrame{shown.center, shown.width * shown.pixel, shown.height * shown.pixel};
+    }
     page.instances = view.instances;
     page.copiesFirst = surface.colorsCopies;
     page.name = surface.name;

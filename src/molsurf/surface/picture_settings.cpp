@@ -63,6 +63,19 @@ PictureSetting viewSetting()
     return shownIn(holds::Views, row);
 }
 
+PictureSetting zoomSetting()
+{
+    PictureSetting row{"zoom", SettingType::Text, "SEL",
+                       "these atoms fill 80 % of a square frame; where something\n"
+                       "hides them, it is cut away to their middle, as by `clip`",
+                       ""};
+    row.set = [](PictureSettings& to, const Values& values) {
+        if (!takeZoom(values.back(), to.picture))
+            wrongValue("zoom", "places X,Y,Z with semicolons between", values.back());
+    };
+    return shownIn(holds::Views | holds::ColorChoices, row);
+}
+
 PictureSetting uprightSetting()
 {
     PictureSetting row{"up", SettingType::Text, "X,Y,Z",
@@ -237,6 +250,7 @@ const std::vector<PictureSetting>& pictureSettings()
     static const std::vector<PictureSetting> all = [] {
         std::vector<PictureSetting> rows = {
             viewSetting(),
+            zoomSetting(),
             uprightSetting(),
             shownIn(holds::Views,
                     numberRow<PictureSettings>(
@@ -294,6 +308,26 @@ bool takeView(const std::string& view, DrawOptions& picture)
     if (!hasLength(*way)) wrongValue("view", "a direction X,Y,Z that is not 0", view);
     lookFrom(*way, picture);
     return true;
+}
+
+bool takeZoom(const std::string& text, DrawOptions& picture)
+{
+    std::vector<openvdb::Vec3d> places;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(';', begin), text.size());
+        const auto place = placeIn(text.substr(begin, end - begin));
+        if (!place) return false;
+        places.push_back(*place);
+        begin = end + 1;
+    }
+    zoomTo(std::move(places), picture);
+    return true;
+}
+
+void zoomTo(std::vector<openvdb::Vec3d> places, DrawOptions& picture)
+{
+    picture.zoom = std::move(places);
+    picture.frame.reset(); // of a .view
 }
 
 void setUpright(const BallSet& atoms, DrawOptions& picture)

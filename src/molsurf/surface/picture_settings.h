@@ -67,6 +67,13 @@ NoteText rulerText(const std::string& text);
 /// @throws Error(ErrorKind::Input) if the file is no view
 bool takeView(const std::string& view, DrawOptions& picture);
 
+/// Zooms to places X,Y,Z with semicolons between.
+/// @return whether the text is such
+bool takeZoom(const std::string& text, DrawOptions& picture);
+
+/// Zooms to places, also where a .view has a frame of its own.
+void zoomTo(std::vector<openvdb::Vec3d> places, DrawOptions& picture);
+
 /// Puts the normal of a membrane upright, unless the options have a view.
 void setUpright(const BallSet& atoms, DrawOptions& picture);
 

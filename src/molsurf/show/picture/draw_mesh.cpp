@@ -253,13 +253,10 @@ Picture blank(const DrawOptions& options, int height)
     return picture;
 }
 
-} // namespace
-
 /// Depth peeling: layers from front to back, each composed behind those before; background last.
-Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress)
+Picture drawShot(const Mesh& mesh, const View& view, const DrawOptions& options,
+                 const Progress& progress)
 {
-    if (mesh.triangles.empty()) return blank(options, options.width);
-    const View view = chooseView(mesh, options);
     const PictureStyle& style = options.style ? *options.style : styleTable().front();
     std::vector<Light> lights;
     {
@@ -298,6 +295,19 @@ Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& p
     });
     drawNotes(options.notes, view, options.whole > 0 ? options.whole : options.width, picture);
     return picture;
+}
+
+} // namespace
+
+Picture drawMesh(const Mesh& mesh, const DrawOptions& options, const Progress& progress)
+{
+    if (mesh.triangles.empty()) return blank(options, options.width);
+    const View view = chooseView(mesh, options);
+    const std::optional<double> clip = clipBefore(mesh, view, options);
+    if (!clip) return drawShot(mesh, view, options, progress);
+    DrawOptions cut = options;
+    cut.clip = clip;
+    return drawShot(mesh, view, cut, progress);
 }
 
 } // namespace molsurf

@@ -52,10 +52,13 @@ struct DrawOptions {
     /// longest one across the picture.
     openvdb::Vec3d toEye{0.0}, up{0.0};
     openvdb::Vec3d upright{0.0};         ///< what is up whatever the view is; zero: as it says
-    std::optional<PictureFrame> frame{}; ///< none: all of the mesh
-    double turn = 0.0;                   ///< about `up` [degree]
-    bool turnable = false;               ///< the scale is the same for every turn, also for 0
-    bool quick = false;                  ///< as few rays as in wide pictures, for those of a film
+    std::optional<PictureFrame> frame{}; ///< none: `zoom`, or all of the mesh
+    /// Places whose box has 0.8 of the sides of a square frame; what hides them is cut away. Empty:
+    /// all of the mesh is shown.
+    std::vector<openvdb::Vec3d> zoom{};
+    double turn = 0.0;     ///< about `up` [degree]
+    bool turnable = false; ///< the scale is the same for every turn, also for 0
+    bool quick = false;    ///< as few rays as in wide pictures, for those of a film
     /// Points whose principal axes make the automatic view, so that it is the same for any mesh of
     /// them; empty: the vertices.
     std::vector<openvdb::Vec3d> about{};

@@ -168,6 +168,30 @@ PictureFrame frameOf(const Vec3d& center, double across, double upward)
     return {center, border * across, border * across * std::clamp(upward / across, 0.2, 4.0)};
 }
 
+/// The extent of points as they are seen.
+openvdb::BBoxd seenBox(const std::vector<Vec3d>& points, const std::array<Vec3d, 3>& axes)
+{
+    openvdb::BBoxd box;
+    for (const Vec3d& x : points) box.expand(Vec3d(x.dot(axes[0]), x.dot(axes[1]), x.dot(axes[2])));
+    return box;
+}
+
+/// The square frame that DrawOptions::zoom asks for.
+PictureFrame zoomFrame(const std::array<Vec3d, 3>& axes, const DrawOptions& options)
+{
+    constexpr double filled = 0.8;
+    constexpr double least = 4.0; // of a single atom, which has no extent [Å]
+    const openvdb::BBoxd box = seenBox(options.zoom, axes);
+    const Vec3d mid = box.getCenter(), extent = box.extents();
+    const Vec3d center = mid[0] * axes[0] + mid[1] * axes[1] + mid[2] * axes[2];
+    double across = extent[0];
+    if (options.turn != 0.0 || options.turnable) // the same scale for all turns
+        for (const Vec3d& x : options.zoom)
+            across = std::max(across, 2.0 * level(x - center, axes[1]).length());
+    const double side = std::max({across, extent[1], least}) / filled;
+    return {center, side, side};
+}
+
 } // namespace
 
 void keepView(std::size_t count, const std::function<std::vector<Vec3d>(std::size_t)>& pointsOf,
@@ -175,16 +199,17 @@ void keepView(std::size_t count, const std::function<std::vector<Vec3d>(std::siz
 {
     const std::array<Vec3d, 3> axes = axesOf(pointsOf(0), options);
     openvdb::BBoxd box;
-    for (std::size_t i = 0; i < count; ++i)
-        for (const Vec3d& x : pointsOf(i))
-            box.expand(Vec3d(x.dot(axes[0]), x.dot(axes[1]), x.dot(axes[2])));
+    for (std::size_t i = 0; i < count; ++i) box.expand(seenBox(pointsOf(i), axes));
     const Vec3d mid = box.getCenter(), extent = box.extents() + Vec3d(2.0 * margin);
     options.up = axes[1];
     options.toEye = axes[2];
     options.upright = Vec3d(0.0);
     options.turn = 0.0;
     options.frame =
-        frameOf(mid[0] * axes[0] + mid[1] * axes[1] + mid[2] * axes[2], extent[0], extent[1]);
+        options.zoom.empty()
+            ? frameOf(mid[0] * axes[0] + mid[1] * axes[1] + mid[2] * axes[2], extent[0], extent[1])
+            : zoomFrame(axes, options);
+    options.zoom.clear(); // lest a cut comes and goes
 }
 
 View chooseView(const Mesh& mesh, const DrawOptions& options)
@@ -231,8 +256,8 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     PictureFrame frame = frameOf(view.center, across, upward);
     view.low = -0.5 * extent[2];
     view.far = 0.5 * extent[2];
-    if (options.frame) {
-        frame = *options.frame;
+    if (options.frame || !options.zoom.empty()) {
+        frame = options.frame ? *options.frame : zoomFrame(axes, options);
         const double behind = (frame.center - view.center).dot(view.toEye);
         view.low -= behind;
         view.far -= behind;
@@ -242,6 +267,24 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     view.pixel = frame.width / view.width;
     view.height = std::max(1, int(std::lround(view.width * frame.height / frame.width)));
     return view;
+}
+
+std::optional<double> clipBefore(const Mesh& mesh, const View& view, const DrawOptions& options)
+{
+    if (options.clip || options.zoom.empty() || options.turnable || !options.instances.empty())
+        return std::nullopt;
+    // The site's own surface lies within a radius and a probe in front of its centres.
+    constexpr double own = 3.5; // [Å]
+    const std::array<Vec3d, 3> axes = {view.right, view.up, view.toEye};
+    const openvdb::BBoxd box = seenBox(options.zoom, axes);
+    const auto hides = [&](const Vec3f& p) {
+        const Vec3d x(p);
+        const double a = x.dot(axes[0]), b = x.dot(axes[1]);
+        return x.dot(axes[2]) > box.max()[2] + own && a >= box.min()[0] && a <= box.max()[0] &&
+               b >= box.min()[1] && b <= box.max()[1];
+    };
+    if (std::none_of(mesh.positions.begin(), mesh.positions.end(), hides)) return std::nullopt;
+    return box.getCenter()[2] - view.center.dot(view.toEye);
 }
 
 std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)

@@ -26,6 +26,10 @@ struct View {
 /// The frame that shows all of a mesh, or of its copies, with atoms and the places of notes.
 View chooseView(const Mesh& mesh, const DrawOptions& options);
 
+/// Where the near part of a mesh is cut away so that DrawOptions::zoom is seen: through its middle.
+/// @return as DrawOptions::clip [Å]; none: nothing hides it, or the options say what is cut
+std::optional<double> clipBefore(const Mesh& mesh, const View& view, const DrawOptions& options);
+
 /// Keeps one view for pictures of things that move: directions and size are in the options then.
 /// @param[in] count     how many sets of points there are, > 0
 /// @param[in] pointsOf  gives set i; the view is that of the first, and all are in the frame

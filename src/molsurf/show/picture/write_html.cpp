@@ -308,6 +308,11 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, const openvdb::Vec3d& orig
     Json axes = Json::array();
     for (const openvdb::Vec3d& axis : page.axes)
         axes.push_back(Json::array({axis[0], axis[1], axis[2]}));
+    Json zoom;
+    if (page.zoom) {
+        const openvdb::Vec3d center = page.zoom->center - origin;
+        zoom = {{"center", {center[0], center[1], center[2]}}, {"side", page.zoom->width}};
+    }
     Json names = page.names && !page.ballOf.empty() ? namesOf(page, arrays) : Json();
     const bool colored = !page.balls.empty() && page.instances.empty();
     Json cut = colored ? cutOf(page, origin, arrays) : Json();
@@ -319,6 +324,7 @@ Json headerOf(const Mesh& mesh, const HtmlPage& page, const openvdb::Vec3d& orig
             {"levels", levels},
             {"copies", copiesOf(page.instances, origin)},
             {"axes", axes},
+            {"zoom", zoom},
             {"modes", modes},
             {"names", names},
             {"cut", cut},

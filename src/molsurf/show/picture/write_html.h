@@ -28,6 +28,7 @@ struct HtmlPage {
     std::array<openvdb::Vec3d, 3> axes =
         { ///< directions to the right, up and toward the eye at first
             openvdb::Vec3d(1, 0, 0), openvdb::Vec3d(0, 1, 0), openvdb::Vec3d(0, 0, 1)};
+    std::optional<PictureFrame> zoom{}; ///< shown at first; none: all
     /// The copies of parts that are shown in the place of the mesh, and their colours to choose;
     /// empty: the mesh.
     std::vector<MeshInstance> instances{};

@@ -742,6 +742,8 @@ function start(surfaces) {
   const { center } = layers[0].copies.sphere;
   const radius = Math.max(...layers.map(({ copies: { sphere } }) => sphere.radius + sphere.center.distanceTo(center)));
   const middle = center.clone().applyQuaternion(upright);
+  const site = header.zoom; // that is shown at first; null: all is
+  const target = site ? new Vector3(...site.center).applyQuaternion(upright) : middle;
   let shown = layers; // all of them side by side, or one
   const panes = () => panesOf(shown.length, stage.clientWidth, stage.clientHeight);
   const all = (what) => shown.some(what);
@@ -847,12 +849,16 @@ function start(surfaces) {
     const [{ width, height }] = panes();
     return radius / Math.sin((Math.min(1, width / height) * Math.PI * 15) / 180);
   };
+  const siteFrom = () => { // the distance at which the smaller side of a pane shows the site
+    const [{ width, height }] = panes();
+    return site.side / (2 * Math.min(1, width / height) * Math.tan((15 * Math.PI) / 180));
+  };
   const reset = () => {
     camera.up.set(0, 1, 0);
-    camera.position.copy(middle).add(new Vector3(0, 0, wholeFrom()));
+    camera.position.copy(target).add(new Vector3(0, 0, site ? siteFrom() : wholeFrom()));
     camera.near = radius / 50;
     camera.far = radius * 50;
-    controls.target.copy(middle);
+    controls.target.copy(target);
     camera.updateProjectionMatrix();
     controls.update();
     moved = true;
