@@ -386,4 +386,12 @@ def test_a_mesh_for_pyvista(crambin):
     mesh = s.to_pyvista()
     assert mesh.n_points == len(s.vertices) and mesh.n_cells == len(s.faces) and mesh.is_manifold
     assert np.allclose(mesh.point_data["mean_curvature"], s.curvature) and "RGB" not in mesh.point_data
+    directed = crambin.surface(kind="ses", voxel=1, fields="principal_direction_1,shape_index")
+    mesh = directed.to_pyvista()
+    vectors = mesh.point_data["principal_direction_1"]
+    assert vectors.shape == directed.vertices.shape and "principal_direction_1_x" not in mesh.point_data
+    assert np.array_equal(vectors[:, 2], directed.vertex_data["principal_direction_1_z"])
+    assert mesh.point_data["shape_index"].shape == (len(vectors),)
+    assert mesh.glyph(orient="principal_direction_1", scale=False, tolerance=0.1).n_cells > 100
+    mesh = s.to_pyvista()
     assert mesh.area == pytest.approx(s.area, rel=0.05)

@@ -176,6 +176,18 @@ LOOK = {"width": "size", **{name: name.replace("_", "-") for name in (
     "dpi", "zoom", "pieces", "sharp_colors")}}
 
 
+def _attributes(data):
+    """vertex_data with vectors (n, 3) in the place of their components NAME_x, NAME_y and NAME_z."""
+    out = {}
+    for name, values in data.items():
+        stem = name[:-2]
+        if name.endswith("_x") and {f"{stem}_y", f"{stem}_z"} <= set(data):
+            out[stem] = np.stack([data[f"{stem}_{axis}"] for axis in "xyz"], axis=1)
+        elif not (name.endswith(("_y", "_z")) and stem in out):
+            out[name] = np.array(values)
+    return out
+
+
 class Surface:
     """The surface of a molecule: what surface() and Molecule.surface() make.
 
@@ -385,26 +397,27 @@ class Surface:
     def to_trimesh(self):
         """Makes a trimesh.Trimesh of a copy of the mesh, with vertex normals, and vertex colours if there are any.
 
-        Its `vertex_attributes` hold vertex_data: curvatures, atom_id and others, an array of n rows each.
+        Its `vertex_attributes` hold vertex_data: curvatures, atom_id and others, an array of n rows each, vectors with three columns.
 
         Raises ImportError without the package trimesh, AttributeError for a surface without a mesh.
         """
         import trimesh
         mesh = trimesh.Trimesh(self.vertices.copy(), self.faces.copy(), vertex_normals=self.normals.copy(), process=False,
                                vertex_colors=self.colors.copy() if len(self.colors) else None)
-        mesh.vertex_attributes.update({name: np.array(values) for name, values in self.vertex_data.items()})
+        mesh.vertex_attributes.update(_attributes(self.vertex_data))
         return mesh
 
     def to_pyvista(self):
-        """Makes a pyvista.PolyData of a copy of the mesh, whose `point_data` holds vertex_data, Normals and RGB.
+        """Makes a pyvista.PolyData of a copy of the mesh, whose `point_data` holds vertex_data, Normals and RGB. Directions are vectors (n, 3), as for
+        `mesh.glyph(orient="principal_direction_1", scale=False)`.
 
         Raises ImportError without the package pyvista, AttributeError for a surface without a mesh.
         """
         import pyvista
         faces = np.insert(self.faces, 0, 3, axis=1).ravel()
         mesh = pyvista.PolyData(self.vertices.copy(), faces)
-        for name, values in self.vertex_data.items():
-            mesh.point_data[name] = np.array(values)
+        for name, values in _attributes(self.vertex_data).items():
+            mesh.point_data[name] = values
         mesh.point_data["Normals"] = self.normals.copy()
         if len(self.colors):
             mesh.point_data["RGB"] = self.colors.copy()

@@ -243,6 +243,17 @@ TEST(WriteVtk, HasWhatTheMeshHas)
         });
     };
     EXPECT_EQ(written().find("COLOR_SCALARS"), std::string::npos);
+    Mesh turned = mesh;
+    turned.scalars = {{"a", {1, 2, 3, 4}},       {"n_x", {5, 6, 7, 8}}, {"n_y", {9, 10, 11, 12}},
+                      {"n_z", {13, 14, 15, 16}}, {"b_x", {0, 0, 0, 0}}, {"b_y", {0, 0, 0, 0}}};
+    std::swap(mesh, turned);
+    const std::string vectors = written();
+    std::swap(mesh, turned);
+    EXPECT_EQ(numbersBehind(vectors, "VECTORS n float"),
+              std::vector<double>({5, 9, 13, 6, 10, 14, 7, 11, 15, 8, 12, 16}));
+    for (const char* scalar : {"SCALARS a float", "SCALARS b_x float", "SCALARS b_y float"})
+        EXPECT_NE(vectors.find(scalar), std::string::npos) << scalar;
+    EXPECT_EQ(vectors.find("SCALARS n_"), std::string::npos);
     mesh.colors = {{255, 0, 51}, {0, 0, 0}, {102, 255, 255}, {1, 2, 3}};
     const std::string text = written();
     EXPECT_EQ(

@@ -49,4 +49,14 @@ void appendPart(const Mesh& mesh, const PartRange& range, Mesh& out)
     }
 }
 
+std::string vectorAt(const Mesh& mesh, std::size_t scalar)
+{
+    if (scalar + 3 > mesh.scalars.size()) return "";
+    const std::string& first = mesh.scalars[scalar].name;
+    const std::string name = first.substr(0, first.size() - std::min<std::size_t>(first.size(), 2));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (mesh.scalars[scalar + axis].name != name + "_" + "xyz"[axis]) return "";
+    return name;
+}
+
 } // namespace molsurf

@@ -26,4 +26,8 @@ std::vector<PartRange> partRanges(const Mesh& mesh, const std::string& name);
 /// Appends a part of a mesh as a part of another, with the values and labels that the other has.
 void appendPart(const Mesh& mesh, const PartRange& range, Mesh& out);
 
+/// The name of the vector whose components a scalar and the two behind it are: NAME_x, NAME_y and
+/// NAME_z. Empty: it begins none.
+std::string vectorAt(const Mesh& mesh, std::size_t scalar);
+
 } // namespace molsurf

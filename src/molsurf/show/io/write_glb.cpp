@@ -31,22 +31,6 @@ using openvdb::Vec3f;
 constexpr int floatType = 5126, shortType = 5123, indexType = 5125;
 constexpr int vertexTarget = 34962, indexTarget = 34963;
 
-/// Vectors that the scalars NAME_x, NAME_y and NAME_z make in turn, and their attributes.
-struct VectorName {
-    const char* scalars;
-    const char* attribute;
-};
-constexpr VectorName vectorNames[] = {{"v", "_VELOCITY"}};
-
-/// The attribute of the vector that begins with a scalar, or null.
-const char* vectorOf(const Mesh& mesh, std::size_t scalar)
-{
-    if (scalar + 3 > mesh.scalars.size()) return nullptr;
-    for (const VectorName& row : vectorNames)
-        if (mesh.scalars[scalar].name == std::string(row.scalars) + "_x") return row.attribute;
-    return nullptr;
-}
-
 std::string attributeName(const std::string& name)
 {
     std::string capitals = "_";
@@ -121,16 +105,13 @@ private:
         attributes["NORMAL"] = addNormals(range);
         if (!mesh_->colors.empty()) attributes["COLOR_0"] = addColors(range);
         for (std::size_t s = 0; s < mesh_->scalars.size(); ++s) {
-            if (const char* vector = vectorOf(*mesh_, s)) {
-                attributes[vector] = addVectors(range, &mesh_->scalars[s]);
-                s += 2;
-                continue;
-            }
-            const auto& scalar = mesh_->scalars[s];
-            std::vector<float> values = scalar.values; // glTF has no NaN
-            for (float& value : values)
-                if (!std::isfinite(value)) value = 0.0f;
-            attributes[attributeName(scalar.name)] = addNumbers(range, values);
+            const std::string vector = vectorAt(*mesh_, s);
+            const std::string name = vector == "v"    ? "velocity"
+                                     : vector.empty() ? mesh_->scalars[s].name
+                                                      : vector;
+            const std::size_t components = vector.empty() ? 1 : 3;
+            attributes[attributeName(name)] = addScalars(range, s, components);
+            s += components - 1;
         }
         for (const auto& label : mesh_->labels)
             attributes[attributeName(label.name)] = addNumbers(range, label.values);
@@ -249,13 +230,17 @@ private:
         return number;
     }
 
-    /// @param[in] along  the scalars along x, y and z
-    std::size_t addVectors(const PartRange& range, const Attribute<float>* along)
+    /// Adds one scalar, or the three of a vector. glTF has no NaN: they are 0.
+    std::size_t addScalars(const PartRange& range, std::size_t first, std::size_t components)
     {
         const std::size_t begin = bytes_.size();
         for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v)
-            for (int axis = 0; axis < 3; ++axis) append(along[axis].values[v]);
-        return close(begin, range.vertexEnd - range.firstVertex, floatType, "VEC3", vertexTarget);
+            for (std::size_t c = first; c < first + components; ++c) {
+                const float value = mesh_->scalars[c].values[v];
+                append(std::isfinite(value) ? value : 0.0f);
+            }
+        return close(begin, range.vertexEnd - range.firstVertex, floatType,
+                     components == 3 ? "VEC3" : "SCALAR", vertexTarget);
     }
 
     template<typename T>

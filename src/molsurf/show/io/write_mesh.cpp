@@ -4,6 +4,7 @@
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/show/io/output_buffer.h"
+#include "molsurf/show/io/part_ranges.h"
 #include "molsurf/show/io/ply_layout.h"
 #include "molsurf/show/io/write_3mf.h"
 #include "molsurf/show/io/write_fem.h"
@@ -129,7 +130,7 @@ void writeFace(const Mesh& mesh, OutputFile& file)
 }
 
 /// Writes a PolyData of VTK's legacy form, as text: positions [Å], triangles, and at the vertices
-/// normals, Mesh::scalars, Mesh::labels and, if there are any, colours.
+/// normals, vectors and other Mesh::scalars, Mesh::labels and, if there are any, colours.
 void writeVtk(const Mesh& mesh, const std::string& name, OutputFile& file)
 {
     const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
@@ -147,7 +148,18 @@ void writeVtk(const Mesh& mesh, const std::string& name, OutputFile& file)
     out << "POINT_DATA " << vertices << "\n";
     if (!mesh.normals.empty()) out << "NORMALS normal float\n";
     putVectors(out, "", mesh.normals);
-    for (const auto& scalar : mesh.scalars) putNumbers(scalar.name + " float", scalar.values);
+    for (std::size_t s = 0; s < mesh.scalars.size(); ++s) {
+        const std::string vector = vectorAt(mesh, s);
+        if (vector.empty()) {
+            putNumbers(mesh.scalars[s].name + " float", mesh.scalars[s].values);
+            continue;
+        }
+        out << "VECTORS " << vector << " float\n";
+        for (std::size_t v = 0; v < vertices; ++v)
+            out << mesh.scalars[s].values[v] << " " << mesh.scalars[s + 1].values[v] << " "
+                << mesh.scalars[s + 2].values[v] << "\n";
+        s += 2;
+    }
     for (const auto& label : mesh.labels) putNumbers(label.name + " int", label.values);
     if (!mesh.colors.empty()) out << "COLOR_SCALARS color 3\n";
     putColors(out, mesh.colors);
