@@ -33,6 +33,10 @@ double farFrom(double voxel)
 /// flat, and nothing holds the interface there.
 constexpr float leastSlopeShare = 0.2f;
 
+// In crevices and on creases of psi the level is bounded: e^v, as times that of a flat interface,
+// and the curvature that acts on it [1/Å].
+constexpr double lowestLevel = 0.3, highestLevel = 2.0, sharpest = 3.0;
+
 /// The curvature of the level set of a function, and m = n . Hess n, from its derivatives.
 struct Bending {
     float curvature, second;
@@ -64,8 +68,8 @@ MOLSURF_KERNEL void levelRows(const float* __restrict block, const float* __rest
                               float voxel, const Weights weights, float* __restrict levels)
 {
     using Block = LeafBlock<float, 1>;
-    constexpr float least = 0.3f, most = 2.0f; // e^v, as times that of a flat interface
-    constexpr float any = 1e30f;               // level
+    constexpr float any = 1e30f; // level
+    constexpr float limit = float(sharpest);
     const float near = float(farFrom(double(voxel)));
     const float inverse = 1.0f / voxel;
     for (int row = 0; row < 64; ++row) {
@@ -87,10 +91,10 @@ MOLSURF_KERNEL void levelRows(const float* __restrict block, const float* __rest
                 const float x = d.x - t * (d.xx * d.x + d.xy * d.y + d.xz * d.z);
                 const float y = d.y - t * (d.xy * d.x + d.yy * d.y + d.yz * d.z);
                 const float w = d.z - t * (d.xz * d.x + d.yz * d.y + d.zz * d.z);
-                const float kappa = clamped(k / larger(1.0f - 0.5f * k * way, 0.3f), -3.0f, 3.0f);
+                const float kappa = clamped(k / larger(1.0f - 0.5f * k * way, 0.3f), -limit, limit);
                 const float slope = std::sqrt(larger(x * x + y * y + w * w, leastSlope2));
-                level = flat + fastLog(clamped(bottom * rootAtFoot(slope, kappa, m, weights), least,
-                                               most));
+                const float e = bottom * rootAtFoot(slope, kappa, m, weights);
+                level = flat + fastLog(clamped(e, float(lowestLevel), float(highestLevel)));
             }
             // One voxel farther than `near` the level is that of a flat interface.
             const float off = clamped((std::abs(distance) - near) * inverse, 0.0f, 1.0f);
@@ -191,8 +195,6 @@ LeafField levelsAtRest(const SparseField& psi, const SlopeField& slope, const We
 
 RestLevel levelAtRest(const PsiJet& psi, double least, const Weights& weights)
 {
-    constexpr double lowest = 0.3, most = 2.0; // e^v, as times that of a flat interface
-    constexpr double sharpest = 3.0;           // [1/Å]
     const openvdb::Mat3d& H = psi.hessian;
     const double length = std::max(psi.gradient.length(), 1e-6);
     const openvdb::Vec3d up = psi.gradient / length;
@@ -205,7 +207,7 @@ RestLevel levelAtRest(const PsiJet& psi, double least, const Weights& weights)
     const double gamma = kappa * (1.0 + area);
     const double root = std::sqrt(std::max(beta * beta + alpha * gamma, 0.0));
     const double found = (beta + root) / std::max(alpha, 0.5);
-    const double e = std::clamp(found, lowest / (1.0 + q), most / (1.0 + q));
+    const double e = std::clamp(found, lowestLevel / (1.0 + q), highestLevel / (1.0 + q));
     RestLevel out{std::log(e), curvature};
     // By implicit differentiation of alpha e^2 - 2 beta e - gamma, whose derivative by e is 2 root.
     const double steep = 2.0 * root * e;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/kernel/levelset/bumps.h"
 
+#include "molsurf/kernel/levelset/gaussian_terms.h"
+
 #include <cmath>
 
 namespace molsurf
@@ -12,7 +14,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-constexpr double bumpFelt = 16.0; // beyond this exponent a bump counts as zero
+constexpr double bumpFelt = double(negligible); // beyond this exponent a bump counts as zero
 
 } // namespace
 

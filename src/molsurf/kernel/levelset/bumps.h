@@ -23,7 +23,7 @@ struct Bump {
     double rate;          ///< [1/Å^2]
 };
 
-/// How far from its place a bump counts; beyond this it is below e^-16 of its amplitude [Å].
+/// How far from its place a bump counts; beyond this it is below e^-12 of its amplitude [Å].
 double reachOf(const Bump& bump);
 
 /// A bump at a point with its derivatives; zero beyond its reach.

@@ -246,9 +246,9 @@ GaussianSum::Candidates GaussianSum::candidates(const Progress& progress,
     std::atomic<std::int32_t> summed{0};
     parallelFor(table.size(), progress, [&](std::size_t n) {
         Leaf& leaf = leafAt(table.origin(n), options_.reach);
-        constexpr float rounding = 1e-3f; // of bounds and sums in float
-        if (leaf.bounds.most(leaf.terms.count) < -rounding) return;
-        if (leaf.bounds.least() > rounding) {
+        // If rounding decides, psi is 0 within rounding at the voxel of the bound alone.
+        if (leaf.bounds.most(leaf.terms.count) < 0.0f) return;
+        if (leaf.bounds.least() > 0.0f) {
             out.inside[n] = ~LeafMask();
             return;
         }

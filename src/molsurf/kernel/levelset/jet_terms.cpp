@@ -33,7 +33,7 @@ MOLSURF_KERNEL void sumJetTerms(const JetColumns& list, double x, double y, doub
                                 JetSums& __restrict out)
 {
     const double* __restrict cx = list.x, * __restrict cy = list.y, * __restrict cz = list.z, * __restrict rates = list.rate, * __restrict levels = list.level;
-    constexpr double least = -12.0; // exponent: a term below it is left out
+    constexpr double least = -double(negligible); // exponent
     Doubles e = {}, fx = {}, fy = {}, fz = {}, xx = {}, xy = {}, xz = {}, yy = {}, yz = {}, zz = {},
             c = {};
     for (std::size_t i = 0; i < list.count; i += doubleLanes) {

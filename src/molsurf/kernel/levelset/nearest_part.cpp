@@ -15,10 +15,9 @@ using openvdb::Vec3f;
 namespace
 {
 
-/// A foot on a sphere counts as covered if it comes this near, as a cosine, to a cap. If it is not
-/// covered, an arc or corner about it is just as near; if it is, as where spheres meet in a point
-/// inside of others, nothing is.
-constexpr float rimTolerance = 2e-6f;
+// A foot on a sphere counts as covered if it comes as near to a cap as cosines are rounded. If it
+// is not covered, an arc or corner about it is just as near; if it is, as where spheres meet in a
+// point inside of others, nothing is.
 
 constexpr float nowhere = 1e15f; // a distance
 constexpr float farAway = 1e8f;  // a place that pads lists
@@ -204,7 +203,7 @@ MOLSURF_INLINE bool isOpen(const CapLists& caps, CapRange range, const Vec3f& to
     for (std::uint32_t i = range.begin; i < range.end; i += floatLanes) {
         const Floats along = to.x() * load(caps.x.data() + i) + to.y() * load(caps.y.data() + i) +
                              to.z() * load(caps.z.data() + i);
-        const Ints covered = (along > (load(caps.cosine.data() + i) - rimTolerance) * r) &
+        const Ints covered = (along > (load(caps.cosine.data() + i) - cosineRounding) * r) &
                              (laneNumbers() < splat(std::int32_t(range.end - i)));
         if (any(covered)) return false;
     }
@@ -330,14 +329,14 @@ MOLSURF_KERNEL int capsAbout(const Cone& cone, const CapLists& caps, CapRange ra
         // Here t - s = cos g - cos(A - B) and t + s = cos g - cos(A + B).
         const float t = x[k] * ax + y[k] * ay + z[k] * az - cosine[k] * cone.cosine;
         const float s = sine[k] * cone.sine;
-        whole |= (cosine[k] <= cone.cosine ? t - s : -1.0f) > rimTolerance ? 1 : 0;
+        whole |= (cosine[k] <= cone.cosine ? t - s : -1.0f) > cosineRounding ? 1 : 0;
         above[k] = cosine[k] < -cone.cosine ? 1.0f : t + s;
     }
     if (whole) return -1;
     int m = 0;
     for (int k = 0; k < count; ++k) {
         out[m] = std::int32_t(range.begin) + k;
-        m += above[k] > -2.0f * rimTolerance;
+        m += above[k] > -2.0f * cosineRounding;
     }
     return m;
 }
@@ -423,7 +422,7 @@ MOLSURF_INLINE void offerArc(const PartList& l, std::size_t i, const Places& at,
     const FromCircle from(s, axis, mid);
     const float radius = l.numbers[PartRadius][i];
     const Floats off = from.aside - radius;
-    const Ints between = from.middle >= (l.numbers[EndCosine][i] - rimTolerance) * from.aside;
+    const Ints between = from.middle >= (l.numbers[EndCosine][i] - cosineRounding) * from.aside;
     const Floats d2 = from.along * from.along + off * off;
     // With the radial unit vector u, which is (s - along axis)/aside, the way is -along axis - off
     // u, and the circle's curvature counts by the cosine between them.
@@ -445,7 +444,7 @@ MOLSURF_INLINE void offerPatch(const PartList& l, const CapLists& caps, std::siz
     if (!any(open)) return; // only directions that would be nearer are looked at further
     for (std::uint32_t k = l.caps[i].begin; k < l.caps[i].end; ++k) {
         const Floats along = s.x * caps.x[k] + s.y * caps.y[k] + s.z * caps.z[k];
-        open &= along <= (caps.cosine[k] - rimTolerance) * r;
+        open &= along <= (caps.cosine[k] - cosineRounding) * r;
     }
     best.offer(open ? d2 : splat(nowhere), l.part[i], s, splat(1.0f / l.numbers[PartRadius][i]));
 }

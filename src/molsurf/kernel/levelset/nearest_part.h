@@ -12,10 +12,14 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <vector>
 
 namespace molsurf
 {
+
+/// What some roundings to floats may change of a cosine, and of a product of three unit vectors.
+constexpr float cosineRounding = 16.0f * std::numeric_limits<float>::epsilon();
 
 /// Numbers of a part. Those behind the place bound the region in which it can be the nearest. Let a
 /// voxel inside have its nearest point of the boundary where some balls meet: the way from there to

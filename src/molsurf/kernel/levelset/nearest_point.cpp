@@ -156,7 +156,7 @@ double gapBetween(const Coord& offset)
 /// The leaves that may hold points within reach of a voxel of a leaf, nearest first.
 void prepare(double reach, NearestScratch& s)
 {
-    const double farthest = reach + LeafPoints::overhang;
+    const double farthest = reach + double(farthestSeed);
     const int R = int(std::ceil(farthest / leafDim));
     s.reach = reach;
     s.offsets.clear();
@@ -183,7 +183,7 @@ int gatherPoints(const LeafPoints& points, const Coord& origin, double reach, Ne
     float nearest2 = 1e30f;
     std::size_t count = 0;
     for (const auto& [gap, offset] : s.offsets) {
-        if (gap > limit + LeafPoints::overhang) break;
+        if (gap > limit + double(farthestSeed)) break;
         const std::int32_t n = points.table.find(origin + offset);
         if (n == noLeaf) continue;
         const std::size_t begin = points.begins[n], more = points.begins[n + 1] - begin;

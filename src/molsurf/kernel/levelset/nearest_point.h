@@ -15,11 +15,13 @@
 namespace molsurf
 {
 
-/// Points in the leaves of a table, in units of voxels: those of leaf n are [begins[n], begins[n +
-/// 1]). A point may lie up to `overhang` outside its leaf.
-struct LeafPoints {
-    static constexpr double overhang = 1.5; ///< [voxel]
+/// How far from a voxel of its leaf a point may lie; a closest point on an interface that would lie
+/// farther from its voxel does not count [voxel].
+constexpr float farthestSeed = 1.45f;
 
+/// Points in the leaves of a table, in units of voxels: those of leaf n are [begins[n], begins[n +
+/// 1]). A point may lie up to farthestSeed outside its leaf.
+struct LeafPoints {
     const LeafTable& table;
     std::vector<std::size_t> begins;
     std::vector<float> x, y, z; ///< from the first voxel of their leaf [voxel]; `padding` more than

@@ -78,7 +78,7 @@ double leastCosine(const Arc& arc, const Vec3d& centre, double radius, const Vec
 /// it is free, the cone is the whole sphere.
 std::vector<FreeCone> freeCones(const BallBoundary& boundary)
 {
-    constexpr double rounding = 1e-6;
+    constexpr double rounding = double(cosineRounding);
     const std::vector<Patch>& patches = boundary.patches;
     std::vector<std::uint32_t> patchOf(boundary.balls.size());
     for (std::size_t p = 0; p < patches.size(); ++p)
@@ -110,7 +110,7 @@ std::vector<FreeCone> freeCones(const BallBoundary& boundary)
         bool covered = false;
         for (std::size_t k = patches[p].capsBegin; k < patches[p].capsEnd && !covered; ++k)
             covered = openvdb::Vec3f(caps.x[k], caps.y[k], caps.z[k]).dot(beyond) >
-                      caps.cosine[k] + float(rounding);
+                      caps.cosine[k] + cosineRounding;
         cone.cosine = covered ? std::max(cone.cosine - rounding, -1.0) : -1.0;
     }
     return cones;
@@ -186,7 +186,7 @@ void setCorner(const BallBoundary& boundary, double inside, std::int32_t part, s
         const PlacedBall& ball = boundary.balls[std::size_t(corner.balls[k])];
         to[k] = (ball.centre() - corner.position) / ball.radius;
     }
-    constexpr double flat = 1e-6; // volume of the unit vectors below which its sign is rounding
+    constexpr double flat = double(cosineRounding); // the sign of a smaller volume is rounding
     const double volume = to[0].dot(to[1].cross(to[2]));
     const double sign = std::abs(volume) < flat ? 0.0 : volume > 0.0 ? 1.0 : -1.0;
     double cosine = 1.0;

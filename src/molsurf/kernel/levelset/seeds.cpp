@@ -32,11 +32,8 @@ Seed seedOf(const FootPoints& feet, int lane, std::int32_t leaf)
     return seed;
 }
 
-/// The farthest that a closest point may lie from its voxel, in voxels.
-constexpr float farthestFoot = 1.45f;
-
 /// The closest points of voxels next to the interface, by Newton's method from the voxels
-/// themselves. A point that would leave the ball of radius farthestFoot stays where it is.
+/// themselves. A point that would leave the ball of radius farthestSeed stays where it is.
 /// @param[in] c       coefficients of phi/h
 /// @param[in] voxels  `count` <= lanes voxels of the leaf
 void closestPoints(const LeafBlock<float, 3>& c, const std::uint16_t* voxels, int count,
@@ -64,7 +61,7 @@ void closestPoints(const LeafBlock<float, 3>& c, const std::uint16_t* voxels, in
         for (int l = 0; l < lanes; ++l) {
             if (!moves[l]) continue;
             const Vec3f step = lane(move, l), next = lane(feet.y, l) + step;
-            moves[l] = (next - lane(x, l)).lengthSqr() <= farthestFoot * farthestFoot;
+            moves[l] = (next - lane(x, l)).lengthSqr() <= farthestSeed * farthestSeed;
             step2[l] = step.lengthSqr();
             if (moves[l]) setLane(next, l, feet.y);
         }

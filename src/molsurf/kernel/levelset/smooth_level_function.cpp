@@ -35,7 +35,6 @@ void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
                   const LeafMask& mask, float voxel, float* out)
 {
     constexpr float leastSlope = 0.3f;
-    constexpr float least = -12.0f, most = 3.0f; // leaving() is 1 before psi comes to either
     const float inverse = 1.0f / voxel;
     mask.forEach([&](int v) {
         const float* p = psi.at(v >> 6, v >> 3 & 7, v & 7);
@@ -52,7 +51,7 @@ void levelsAtFeet(const LeafBlock<float, 1>& phi, const LeafBlock<float, 1>& psi
         const float bend = nx * nx * d.xx + ny * ny * d.yy + nz * nz * d.zz +
                            2.0f * (nx * ny * d.xy + ny * nz * d.yz + nx * nz * d.xz);
         const float distance = distanceOf(*f, 0.5f * slope * inverse);
-        out[v] = std::clamp(*p - distance * along + 0.5f * distance * distance * bend, least, most);
+        out[v] = *p - distance * along + 0.5f * distance * distance * bend;
     });
 }
 

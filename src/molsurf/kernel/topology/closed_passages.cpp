@@ -59,17 +59,18 @@ std::vector<std::size_t> poresOf(const std::vector<Closed>& points, const Passag
 }
 
 /// How many times smaller the tolerance has to be for a point to be open: bisection of the
-/// logarithm between 1 and `most` to a ratio of `finest`.
-/// @return about `most` if the point is closed up to there
+/// logarithm between 1 and `most`, to 2 %.
+/// @return `most` if the point is closed up to there
 double timesToOpen(const Vec3d& place, const PassageField& field, const GapRule& rule)
 {
-    constexpr double most = 64.0, finest = 1.02;
+    constexpr double most = 64.0;
+    constexpr int bisections = 8;
     const auto isOpen = [&](double times) {
         const auto gap = gapAt(place, field.sharpened(place, times));
         return gap && gap->psi < gap->closedAbove(rule.gradient, rule.area);
     };
     double low = 1.0, high = most;
-    while (high / low > finest) {
+    for (int i = 0; i < bisections; ++i) {
         const double middle = std::sqrt(low * high);
         (isOpen(middle) ? high : low) = middle;
     }

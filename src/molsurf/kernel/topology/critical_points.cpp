@@ -22,8 +22,8 @@ namespace
 /// Newton steps from the voxels of a leaf to grad psi = 0: the stationary point is x - step.
 struct NewtonSteps {
     alignas(64) float step[3][leafSize]; ///< [Å]
-    alignas(64) float length[leafSize];  ///< [Å]; `none` where psi is too flat or too far
-    alignas(64) float there[leafSize];   ///< psi at the stationary point
+    alignas(64) float length[leafSize]; ///< [Å]; `none` where psi is too far; not finite where flat
+    alignas(64) float there[leafSize];  ///< psi at the stationary point
 
     static constexpr float none = 1e30f;
 };
@@ -36,7 +36,6 @@ MOLSURF_KERNEL void newtonRows(const float* __restrict block, float inverse, flo
                                NewtonSteps& __restrict out)
 {
     using Block = LeafBlock<float, 1>;
-    constexpr float flat = 1e-3f; // determinant of the Hessian [1/Å^6]
     for (int row = 0; row < 64; ++row) {
         const float* p =
             block + (row / 8 + 1) * Block::strideX + (row % 8 + 1) * Block::strideY + 1;
@@ -47,13 +46,13 @@ MOLSURF_KERNEL void newtonRows(const float* __restrict block, float inverse, flo
             const float cxz = d.xy * d.yz - d.xz * d.yy, cyy = d.xx * d.zz - d.xz * d.xz;
             const float cyz = d.xy * d.xz - d.xx * d.yz, czz = d.xx * d.yy - d.xy * d.xy;
             const float det = d.xx * cxx + d.xy * cxy + d.xz * cxz;
-            const float size = std::abs(det), scale = 1.0f / (size < flat ? flat : det);
+            const float scale = 1.0f / det; // not finite where psi is flat: no voxel to start from
             const float sx = scale * (cxx * d.x + cxy * d.y + cxz * d.z);
             const float sy = scale * (cxy * d.x + cyy * d.y + cyz * d.z);
             const float sz = scale * (cxz * d.x + cyz * d.y + czz * d.z);
             const float there = p[z] - 0.5f * (sx * d.x + sy * d.y + sz * d.z);
             const float least = smaller(p[z], there), most = larger(p[z], there);
-            const float wrong = larger(larger(low - least, most - high), flat - size);
+            const float wrong = larger(low - least, most - high);
             const float length = std::sqrt(sx * sx + sy * sy + sz * sz);
             out.step[0][v] = sx;
             out.step[1][v] = sy;
@@ -70,7 +69,7 @@ struct Start {
     Coord cell;
     float length;
     int voxel;
-    bool high; // psi is above farthestGap, here or there
+    bool high; // psi is above all that is closed without atoms, here or there
 
     bool operator<(const Start& o) const
     {
@@ -82,8 +81,9 @@ struct Start {
 std::vector<Start> startsOf(const SparseField& psi, std::size_t n)
 {
     const double h = psi.voxelSize, cell = 0.5 * h;
-    constexpr float margin = 0.8f; // of psi, for the error of the estimates
-    constexpr float limit = float(farthestGap) + margin, highest = float(highestUncovered) + margin;
+    // The estimates of psi may err by half of farthestGap.
+    constexpr float limit = 1.5f * float(farthestGap);
+    constexpr float highest = float(highestUncovered + 0.5 * farthestGap);
     LeafBlock<float, 1> block;
     block.gather(psi, n);
     thread_local NewtonSteps steps;
@@ -108,7 +108,7 @@ std::vector<Gap> findCriticalPoints(const SparseField& psi, const PsiJetAt& jet,
                                     const std::function<bool(const Vec3d&, double)>& covered,
                                     const Progress& progress)
 {
-    const double h = psi.voxelSize, reach = std::max(1.5 * h, 0.75);
+    const double h = psi.voxelSize, reach = gapReach(h);
     std::vector<std::vector<Gap>> found(psi.table.size());
     parallelFor(psi.table.size(), progress, [&](std::size_t n) {
         const Coord& origin = psi.table.origin(n);

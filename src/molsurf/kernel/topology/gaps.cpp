@@ -15,12 +15,18 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// To a power of two, so that what is computed about it has the same bits from wherever it was
-/// found.
+/// Places and amplitudes are multiples of this, so that what is computed about them has the same
+/// bits from wherever they were found; places in Å.
+constexpr double finest = 0x1p-16;
+
 double rounded(double x)
 {
-    return std::round(x * 0x1p16) * 0x1p-16;
+    return std::round(x / finest) * finest;
 }
+
+/// The gradient of psi at a critical point is below this [1/Å]. Where it turns by 1/Å^2, the point
+/// is known to as much [Å], and two that are nearer are one.
+constexpr double exact = 1e-3;
 
 /// The bump at a gap with which psi is `least` at it, and within `reach` of it along its thin axis
 /// not of the other sign.
@@ -51,7 +57,24 @@ Bump bumpAt(const Gap& gap, bool solid, double reach, double rate,
     return {gap.place, side * rounded(amplitude), rate};
 }
 
+/// The rate of the bump at a gap that is no wide pocket: half of it is left one voxel away [1/Å^2].
+double rateFor(double voxelSize)
+{
+    constexpr double sharpest = 1.4; // [1/Å^2]
+    return std::min(sharpest, 0.7 / (voxelSize * voxelSize));
+}
+
 } // namespace
+
+double gapReach(double voxelSize)
+{
+    return std::max(1.5 * voxelSize, 0.75);
+}
+
+double bumpReach(double voxelSize)
+{
+    return reachOf({Vec3d(0.0), 1.0, rateFor(voxelSize)});
+}
 
 double Gap::closedAbove(double gradient, double area) const
 {
@@ -68,12 +91,11 @@ double Gap::closedAbove(double gradient, double area) const
 
 std::vector<Gap> distinct(std::vector<Gap> gaps)
 {
-    constexpr double same = 1e-3; // [Å]
     std::sort(gaps.begin(), gaps.end(),
               [](const Gap& a, const Gap& b) { return a.place < b.place; });
     std::vector<Gap> out;
     for (const Gap& gap : gaps)
-        if (!isAmong(out, gap.place, same)) out.push_back(gap);
+        if (!isAmong(out, gap.place, exact)) out.push_back(gap);
     return out;
 }
 
@@ -92,30 +114,24 @@ std::optional<Gap> gapAt(const Vec3d& place, const PsiJet& there)
 
 std::optional<Gap> gapNear(const PsiJetAt& jet, const Vec3d& from, double reach, double highest)
 {
-    constexpr double longest = 0.3, there = 1e-5; // a step, and one that ends the search [Å]
-    constexpr double near = 0.05; // a step this short [Å] leaves psi known to as much
+    constexpr double longest = 0.3; // a step [Å]
     constexpr int steps = 12;
-    const auto isFar = [&](double psi, double margin) {
-        return psi < -farthestGap - margin || psi > highest + margin;
-    };
     Vec3d x = from, last(0.0);
     for (int i = 0; i < steps; ++i) {
         const PsiJet at = jet(x);
         if (std::abs(at.hessian.det()) < 1e-6) return {};
         Vec3d step = at.hessian.inverse() * at.gradient;
         const double length = step.length();
-        // A short step leads straight to a place where psi has this value.
-        if (length < near && isFar(at.psi - 0.5 * step.dot(at.gradient), near)) return {};
         if (length > longest) step *= longest / length;
         if (step.dot(last) < -0.9 * last.lengthSqr()) return {}; // to and fro, for ever
         last = step;
         x -= step;
         if ((x - from).length() > reach) return {};
-        if (length < there) break;
+        if (length < finest) break;
     }
     for (int a = 0; a < 3; ++a) x[a] = rounded(x[a]);
     const PsiJet at = jet(x);
-    if (at.gradient.length() > 1e-3 || isFar(at.psi, 0.0)) return {};
+    if (at.gradient.length() > exact || at.psi < -farthestGap || at.psi > highest) return {};
     return gapAt(x, at);
 }
 
@@ -132,11 +148,9 @@ std::vector<Decision> decideGaps(const std::vector<Gap>& gaps, const GapRule& ru
 void holdGaps(const PsiJetAt& jet, const std::vector<Gap>& gaps,
               const std::vector<Decision>& decisions, double voxelSize, Bumps& bumps)
 {
-    constexpr double held = 0.7;     // half a gap that voxels hold [voxel]
-    constexpr double widest = 0.5;   // [Å]
-    constexpr double sharpest = 1.4; // [1/Å^2]
-    const double reach = std::min(held * voxelSize, widest);
-    const double rate = std::min(sharpest, 0.7 / (voxelSize * voxelSize)); // half at one voxel
+    constexpr double held = 0.7;   // half a gap that voxels hold [voxel]
+    constexpr double widest = 0.5; // [Å]
+    const double reach = std::min(held * voxelSize, widest), rate = rateFor(voxelSize);
     const auto psi = [&](const Vec3d& x) { return jet(x).psi + bumps.at(x); };
     for (int pass = 0; pass < 2; ++pass) { // what is done for one may undo what was for another
         for (std::size_t i = 0; i < gaps.size(); ++i) {

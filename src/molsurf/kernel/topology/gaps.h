@@ -44,6 +44,9 @@ constexpr double farthestGap = 1.6;
 /// them.
 constexpr double highestUncovered = 4.6;
 
+/// How far from where it is looked for a gap may lie [Å].
+double gapReach(double voxelSize);
+
 /// The gap that Newton's method leads to from a point, if it does not lead farther than `reach`
 /// [Å], and if there is one.
 /// @param[in] highest  psi is at most this there
@@ -55,6 +58,9 @@ std::optional<Gap> gapAt(const openvdb::Vec3d& place, const PsiJet& there);
 
 /// Sorts by place and removes duplicates.
 std::vector<Gap> distinct(std::vector<Gap> gaps);
+
+/// How far the bump counts that holds a gap, if it does not cover a wide pocket [Å].
+double bumpReach(double voxelSize);
 
 /// Decides gaps: each is closed if psi there is above Gap::closedAbove().
 /// @param[in] gaps  distinct, none above farthestGap

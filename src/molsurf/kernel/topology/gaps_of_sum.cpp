@@ -93,10 +93,9 @@ PsiJet movedJet(const GaussianSum& sum, const BallTerm& from, const BallTerm& to
 /// gone.
 std::vector<Bump> movedBumps(const PsiJetAt& jet, const DecidedGaps& some, double voxel)
 {
-    constexpr double farthest = 0.5; // that a gap moves [Å]
     std::vector<Gap> gaps;
     for (const Gap& gap : some.gaps) {
-        const auto moved = gapNear(jet, gap.place, farthest, highestUncovered);
+        const auto moved = gapNear(jet, gap.place, gapReach(voxel), highestUncovered);
         if (!moved) return {};
         gaps.push_back(*moved);
     }
@@ -134,9 +133,10 @@ std::vector<BallAtGaps> ballsAt(const GaussianSum& sum, const std::vector<Gap>& 
 }
 
 /// Some gaps and those whose bumps are felt there, in their order.
-DecidedGaps withNeighbours(const DecidedGaps& all, const std::vector<std::size_t>& some)
+DecidedGaps withNeighbours(const DecidedGaps& all, const std::vector<std::size_t>& some,
+                           double voxel)
 {
-    constexpr double felt = 3.0; // [Å]: a bump of the usual width is 3e-6 of its height there
+    const double felt = bumpReach(voxel);
     DecidedGaps out;
     for (std::size_t k = 0; k < all.gaps.size(); ++k) {
         const bool isNear = std::any_of(some.begin(), some.end(), [&](std::size_t i) {
@@ -186,7 +186,7 @@ std::vector<BumpMotion> motionsOfBumps(const GaussianSum& sum, const DecidedGaps
     const std::vector<BallAtGaps> balls = ballsAt(sum, decided.gaps);
     std::vector<std::vector<BumpMotion>> parts(balls.size());
     parallelFor(balls.size(), progress, [&](std::size_t i) {
-        parts[i] = motionsBy(balls[i], sum, withNeighbours(decided, balls[i].gaps), voxel);
+        parts[i] = motionsBy(balls[i], sum, withNeighbours(decided, balls[i].gaps, voxel), voxel);
     });
     std::vector<BumpMotion> out;
     for (const std::vector<BumpMotion>& part : parts)

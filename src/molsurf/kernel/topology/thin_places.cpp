@@ -94,15 +94,14 @@ bool onOneSheet(const NearestSeeds& near, const std::vector<std::int32_t>& corne
 std::vector<ThinPlace> thinPlacesIn(const NearestSeeds& near, std::size_t n, const LeafMask& turns,
                                     double depth)
 {
-    constexpr float shallower = 1.5f, deeper = 1.3f; // voxels than `depth` that are tried [voxel]
+    constexpr float beside = 1.5f; // the depth: voxels that are tried [voxel]
     const Coord& origin = near.domain.origin(n);
     std::vector<ThinPlace> out;
     std::optional<SeedsAbout> about; // once it is needed
     turns.forEach([&](int v) {
         const Seed& own = near[near.index.leaf(n)[v]];
         const Vec3f offset = near.offset(own, origin, v);
-        const float above = offset.length() - float(depth);
-        if (offset.dot(own.n) > 0.0f || above < -shallower || above > deeper) return;
+        if (offset.dot(own.n) > 0.0f || std::abs(offset.length() - float(depth)) > beside) return;
         const Coord voxel = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
         if (!about) about.emplace(near, n);
         std::vector<std::int32_t> corners = about->in(v, 0, 1);
@@ -141,7 +140,7 @@ Rim rimOf(const std::vector<Vec3d>& y)
 void findThinPlaces(const std::vector<Vec3d>& feet, const Vec3d& middle, double depth,
                     std::vector<ThinPlace>& out)
 {
-    const double unit = unitAt(depth), farthest = 1.2 * unit, doubt = 0.5 * unit;
+    const double unit = unitAt(depth), farthest = farthestRim * unit, doubt = 0.5 * unit;
     const double apart = std::max(0.5 * depth, 1.0);
     // The mean of the feet on a sheet is about the foot of the middle.
     struct Sheet {
@@ -163,9 +162,8 @@ void findThinPlaces(const std::vector<Vec3d>& feet, const Vec3d& middle, double 
     }
     if (sheets.size() < 2) return;
     const auto add = [&](std::vector<Vec3d> some) {
-        constexpr double leastWeight = -0.2;
         const Rim rim = rimOf(some);
-        if (rim.least > leastWeight && rim.radius > depth - highestWall - doubt &&
+        if (rim.least > 0.0 && rim.radius > depth - highestWall - doubt &&
             rim.radius < depth + deepestWall * unit + doubt &&
             (rim.centre - middle).length() < farthest)
             out.push_back({std::move(some), {}});

@@ -33,6 +33,10 @@ Rim rimOf(const std::vector<openvdb::Vec3d>& points);
 /// rounding of ridges may open, and how much less deep that of one that may be closed.
 constexpr double deepestWall = 1.2, highestWall = 0.25;
 
+/// How far from the middle of a cell the centre of the smallest sphere through the sheets may lie,
+/// of unitAt().
+constexpr double farthestRim = 1.2;
+
 /// Unit of lengths near a wall: as voxels come near to the depth, everything would be near.
 double unitAt(double depth);
 

@@ -30,6 +30,9 @@ constexpr double bumpRadius = 3.0; // [voxel]
 // a wall lacks, 0.36 and 0.10 %, with a radius of 2 Å 0.28 and 0.07 %, for 0.22 and 0.05 %.
 constexpr double openHeight = 0.25, openRadius = 1.5;
 
+// How far from the place that leads to it a middle may lie [voxel].
+constexpr double farthestMiddle = 2.5;
+
 double openRadiusOf(double voxelSize) // [voxel]
 {
     return std::max(bumpRadius, openRadius / voxelSize);
@@ -55,15 +58,15 @@ struct Middle {
 /// The middle that a place leads to, by fixed-point iteration: the feet on the sheets move toward
 /// the point, the point to the centre of the smallest sphere through them. Lengths are in voxels.
 /// @param[in] least,most  depths of a middle
-/// @return nothing if it leaves these, or the triangle of its feet, or gets too far from the start
+/// @return nothing if it ends elsewhere, leaves the triangle of its feet or gets too far from the
+/// start
 template<typename JetAt>
 std::optional<Middle> middleFrom(const JetAt& jetAt, const ThinPlace& place, double least,
                                  double most)
 {
     constexpr int steps = 20;
-    constexpr double atRest = 1e-3, farthest = 2.5; // a last step; from the start
-    constexpr double doubt = 0.3;                   // beyond the depths, on the way
-    constexpr double leastWeight = 0.02;            // of a foot in the centre (Rim::least)
+    constexpr double atRest = 1e-3;      // a last step
+    constexpr double leastWeight = 0.02; // of a foot in the centre (Rim::least)
     std::vector<Vec3d> y = place.sheets;
     const Vec3d start = rimOf(y).centre;
     Vec3d x = start;
@@ -76,9 +79,7 @@ std::optional<Middle> middleFrom(const JetAt& jetAt, const ThinPlace& place, dou
         const Rim rim = rimOf(y);
         const double step = (rim.centre - x).length();
         x = rim.centre;
-        if (rim.least < leastWeight || rim.radius < least - doubt || rim.radius > most + doubt ||
-            (x - start).length() > farthest)
-            return {};
+        if (rim.least < leastWeight || (x - start).length() > farthestMiddle) return {};
         if (step < atRest || i == steps - 1) {
             if (rim.radius < least || rim.radius > most) return {};
             return Middle{x, rim.radius, &place.near};
@@ -92,9 +93,7 @@ template<typename JetAt>
 bool isNearest(const JetAt& jetAt, const Middle& middle)
 {
     constexpr double nearer = 0.01; // by less than this a sheet is as near [voxel]
-    constexpr double beyond = 0.5;  // the middle's depth: farther feet are not tried [voxel]
     for (const Vec3d& foot : *middle.near) {
-        if ((foot - middle.place).length() > middle.depth + beyond) continue;
         const auto found = closestFoot(jetAt, middle.place, foot);
         if (found && (*found - middle.place).length() < middle.depth - nearer) return false;
     }
@@ -145,8 +144,9 @@ void addBump(const Vec3d& place, double amplitude, double radius, SparseField& S
 
 int wallReach(double voxelSize)
 {
-    constexpr double told = 5.0; // how far from a wall the voxels lie that lead to it [voxel]
-    return int(std::ceil(bumpRadius + openRadiusOf(voxelSize) + told));
+    // A voxel is a corner of the cell that leads to the start of the search for the wall.
+    const double voxels = 0.5 * std::sqrt(3.0) + farthestRim + farthestMiddle;
+    return int(std::ceil(bumpRadius + openRadiusOf(voxelSize) + voxels));
 }
 
 std::vector<Decision> decideWalls(const PsiJetAt& psi, const std::vector<ThinPlace>& places,

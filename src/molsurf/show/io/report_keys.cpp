@@ -137,9 +137,10 @@ constexpr ReportKey keyTable[] = {
      "Number of those that tension closes although no atom fills them"},
     {"evolution.gaps.nearest", "", "Least distance from the decision, as a value of psi"},
     {"evolution.gaps.closed_by_field", "",
-     "Number of passages and voids that a probe fits into and the field closes, so that the "
-     "surface is closed there too; not with resolution"},
-    {"evolution.gaps.widest_closed", "Å", "Most room beside the probe in one of these"},
+     "Number of passages and voids that a probe fits into and the field closes; not with "
+     "resolution"},
+    {"evolution.gaps.widest_closed", "Å", "Most room beside the probe there"},
+    {"evolution.gaps.opens_below", "Å", "Epsilon below which the widest opens"},
     {"evolution.walls", "",
      "Thin walls and necks decided by psi; null where gaps are, and on voxels above 0.75 Å or two "
      "thirds of the probe"},

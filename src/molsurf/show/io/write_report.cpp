@@ -89,6 +89,7 @@ Json gapsJson(const std::optional<EvolutionReport::Gaps>& gaps)
     if (gaps->closedByField) {
         out["closed_by_field"] = *gaps->closedByField;
         out["widest_closed"] = gaps->widestClosed;
+        out["opens_below"] = gaps->opensBelow;
     }
     return out;
 }
