@@ -2,6 +2,7 @@
 #include "molsurf/request/drawn_request.h"
 
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/show/color/palette.h"
 #include "molsurf/show/picture/view.h"
 #include "molsurf/show/picture/view_file.h"

@@ -210,7 +210,8 @@ public:
           facing_(facingBalls(bare_.balls, members_,
                               std::max(fitReach, isClosedForm(spec) ? acrossAreas(spec) : gap_),
                               progress)),
-          changed_(bare_.balls, members_, spec_), alone_(members_.balls.size())
+          changed_(bare_.balls, members_, spec_), alone_(members_.balls.size()),
+          wholes_(members_.balls.size())
     {
     }
 
@@ -264,13 +265,9 @@ public:
 
     Report::Interface::Fit fit(std::size_t a, std::size_t b)
     {
-        const auto side = [&](std::size_t own, std::size_t other) {
-            std::vector<Ball> out;
-            for (const Facing& f : facing_[own].at(std::int32_t(other)))
-                if (f.gap < fitReach) out.push_back(bare_.balls[f.ball]);
-            return out;
-        };
-        return fits_.of(side(a, b), side(b, a), progress_);
+        std::optional<FitSurface> part[2];
+        const FitSurface &first = surface(a, b, part[0]), &second = surface(b, a, part[1]);
+        return fits_.of(first, second, progress_);
     }
 
 private:
@@ -281,6 +278,21 @@ private:
         together.areas = std::move(both.ofBalls);
         if (!together.areas.empty()) together.balls = std::move(all);
         return (alone(a).total + alone(b).total - both.total) / 2.0;
+    }
+
+    /// The surface of a member's balls that matter for its fit with another one. If these are all
+    /// its balls it is kept: a small member faces many others so.
+    /// @param[out] part  where it is made if they are not
+    const FitSurface& surface(std::size_t own, std::size_t other, std::optional<FitSurface>& part)
+    {
+        const std::vector<std::size_t> near =
+            within(facing_[own].at(std::int32_t(other)), fitReach);
+        const bool isWhole = near.size() == members_.balls[own].size();
+        std::optional<FitSurface>& out = isWhole ? wholes_[own] : part;
+        if (out) return *out;
+        std::vector<Ball> balls;
+        for (const std::size_t i : near) balls.push_back(bare_.balls[i]);
+        return out.emplace(std::move(balls), progress_);
     }
 
     /// Balls of both that face the other member within a gap, ascending.
@@ -309,6 +321,7 @@ private:
     ChangedAreas changed_;
     FitMeasure fits_;
     std::vector<std::optional<Areas>> alone_;
+    std::vector<std::optional<FitSurface>> wholes_;
 };
 
 } // namespace

@@ -105,6 +105,21 @@ TEST(Altloc, OfDifferentResiduesOneStays)
     EXPECT_EQ(chosen(text, "all"), "N:A N:B OG:A OG:B N:C CG:C");
 }
 
+TEST(Altloc, OfDifferentResiduesOneStaysEvenIfTheyShareNoName)
+{
+    EXPECT_EQ(chosen(atom("N", 'A', "SER", 22, 0.6) + atom("OG", 'A', "SER", 22, 0.6) +
+                     atom("C7", 'B', "LIG", 22, 0.4)),
+              "N:A OG:A");
+}
+
+// 0.1 and 0.2 are no less than 0.3, as they are in floats.
+TEST(Altloc, RoundingDecidesNothing)
+{
+    EXPECT_EQ(chosen(atom("CA", 'A', "SER", 1, 0.1) + atom("CB", 'A', "SER", 1, 0.2) +
+                     atom("CA", 'B', "SER", 1, 0.3) + atom("CB", 'B', "SER", 1, 0.0)),
+              "CA:A CB:A");
+}
+
 TEST(Altloc, ResiduesWithInsertionCodesAreSitesOfTheirOwn)
 {
     std::string inserted = atom("CA", 'A', "SER", 52, 0.3) + atom("CB", ' ', "SER", 52, 1) +

@@ -70,7 +70,7 @@ TEST(Membrane, IsThatOfDummies)
 }
 
 /// Two leaves of lipids, or lipids that lie in all directions.
-Lines lipids(double angle, bool flat)
+Lines lipids(double angle, bool flat, bool twoHeads = false)
 {
     Lines lines(angle);
     for (int n = 0; n < 40; ++n) {
@@ -79,6 +79,7 @@ Lines lipids(double angle, bool flat)
         if (flat) way = Vec3d(0.2 * way[0], 0.2 * way[1], n % 2 ? 1.0 : -1.0).unit();
         const Vec3d middle = flat ? Vec3d(8.0 * (n / 2 % 5), 8.0 * (n / 10), 0.0) : Vec3d(0.0);
         lines.add("P", "POP", n + 1, middle + 20.0 * way);
+        if (twoHeads) lines.add("P", "POP", n + 1, middle + 19.0 * way);
         for (int k = 1; k < 8; ++k) lines.add("C1", "POP", n + 1, middle + (20.0 - 2.0 * k) * way);
     }
     return lines;
@@ -91,6 +92,11 @@ TEST(Membrane, IsThatOfLipids)
     ASSERT_TRUE(atoms.record.membrane);
     EXPECT_LT(degreesBetween(*atoms.record.membrane, lines.turned({0, 0, 1})), 3.0);
     EXPECT_FALSE(lipids(0.4, false).read().record.membrane);
+}
+
+TEST(Membrane, NeedsLipidsOfOneHead)
+{
+    EXPECT_FALSE(lipids(0.4, true, true).read().record.membrane);
 }
 
 TEST(Membrane, OfAProteinIsNone)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/molecule/selection/select_balls.h"
 
+#include "molsurf/molecule/selection/subset.h"
 #include "molsurf/molecule/structure/read_structure.h"
 #include "unit/structure/temp_file.h"
 
@@ -90,6 +91,7 @@ TEST(SelectBalls, UsesOneModel)
     const BallSet selection = selectBalls(s, options);
     EXPECT_EQ(selection.record.model, 4);
     EXPECT_EQ(selection.balls[0].atom, 3 * 1231);
+    EXPECT_EQ(subset(selection, {0, 2}).record.model, 4);
     EXPECT_EQ(describeSelection(s, selection),
               "1d3z.pdb.gz: PDB, 10 models, 1231 atoms in model 4; used 1231 atoms");
     options.model = 11;

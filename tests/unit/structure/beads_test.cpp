@@ -49,6 +49,11 @@ TEST(Beads, MartiniByItsNames)
     EXPECT_EQ(beads("POP NC3 PO4 GL1 GL2 C1A D2A C3A C4A C1B C2B").beads, BeadKind::Martini3);
 }
 
+TEST(Beads, AmongAtomsAreNone)
+{
+    EXPECT_EQ(beads("GLY BB,ALA BB SC1,LYS BB SC1 SC2 SC3,SER N C O CB OG").beads, BeadKind::None);
+}
+
 TEST(Beads, ChargesOfHaddockAreNone)
 {
     const Structure s = beads("ASP BB SC1 SCD1,GLN BB SC1 SCD1 SCD2");

@@ -34,14 +34,19 @@ double neckVolume(double radius, double gap, double probe)
     return 2.0 * sum * end / steps;
 }
 
+Report::Interface::Fit fitOf(const std::vector<Ball>& first, const std::vector<Ball>& second)
+{
+    const Progress nobody;
+    return FitMeasure().of(FitSurface(first, nobody), FitSurface(second, nobody), nobody);
+}
+
 // Values rise towards the rim, so medians are those of the circle that halves the area.
 TEST(Fit, OfTwoBallsIsThatOfTheMiddleCircle)
 {
     const double R = 25.0, probe = 1.7, rim = 1.5;
     for (const double gap : {0.2, 1.0}) {
         const double apart = 2.0 * R + gap;
-        const auto fit =
-            FitMeasure().of({{Vec3d(0.0), R, 0}}, {{Vec3d(0.0, 0.0, apart), R, 1}}, Progress());
+        const auto fit = fitOf({{Vec3d(0.0), R, 0}}, {{Vec3d(0.0, 0.0, apart), R, 1}});
         const double most = std::acos(0.5 * apart / (R + probe));
         const double trimmed = most - 2.0 * std::asin(0.5 * rim / R);
         const double middle = std::acos(0.5 * (1.0 + std::cos(trimmed)));
@@ -60,14 +65,67 @@ TEST(Fit, OfTwoBallsIsThatOfTheMiddleCircle)
 TEST(Fit, OfWhatHardlyTouchesIsUnknown)
 {
     const Ball one{Vec3d(0.0), 1.7, 0};
-    const auto touching = FitMeasure().of({one}, {{Vec3d(0.0, 0.0, 4.0), 1.7, 1}}, Progress());
+    const auto touching = fitOf({one}, {{Vec3d(0.0, 0.0, 4.0), 1.7, 1}});
     EXPECT_TRUE(std::isnan(touching.shape));
     EXPECT_TRUE(std::isnan(touching.distance));
     EXPECT_GT(touching.gapVolume, 1.0);
-    const auto apart = FitMeasure().of({one}, {{Vec3d(0.0, 0.0, 30.0), 1.7, 1}}, Progress());
+    const auto apart = fitOf({one}, {{Vec3d(0.0, 0.0, 30.0), 1.7, 1}});
     EXPECT_TRUE(std::isnan(apart.shape));
     EXPECT_TRUE(std::isnan(apart.gapIndex));
     EXPECT_EQ(apart.gapVolume, 0.0);
+}
+
+// Balls that touch far away make arcs, so that points are found by the search that is for all
+// surfaces, and not by that for spheres.
+TEST(Fit, OfSpheresIsThatOfTheSameBallsInALargerGroup)
+{
+    const std::vector<Ball> beads = {{Vec3d(0.1, 0.2, 0.3), 2.64, 0},
+                                     {Vec3d(-1.0, 10.0, 0.0), 2.1, 1}};
+    const std::vector<Ball> others = {{Vec3d(3.1, 1.0, -0.4), 2.64, 2},
+                                      {Vec3d(-2.0, 3.6, 2.2), 1.9, 3},
+                                      {Vec3d(0.5, 9.0, 4.8), 2.64, 4}};
+    std::vector<Ball> more = beads;
+    more.push_back({Vec3d(60.0, 0.0, 0.0), 1.5, 5});
+    more.push_back({Vec3d(61.0, 0.0, 0.0), 1.5, 6});
+    const auto spheres = fitOf(beads, others), all = fitOf(more, others);
+    EXPECT_NEAR(spheres.shape, all.shape, 1e-9);
+    EXPECT_NEAR(spheres.distance, all.distance, 1e-9);
+    EXPECT_NEAR(spheres.gapVolume, all.gapVolume, 1e-6);
+    EXPECT_NEAR(spheres.gapIndex, all.gapIndex, 1e-6);
+}
+
+TEST(Fit, PointsOfASphereAreErodedByWhatIsNear)
+{
+    const double radius = 2.0, chord = 0.4;
+    ExcludedSampler sampler(1.4, 10.0);
+    const auto& spread = sampler.spreadOver(radius);
+    SpherePoints points(spread, chord);
+    const Vec3d way(0.3, -0.5, 0.9), other(-1.0, 0.2, 0.1);
+    SpherePoints::Set set = points.none();
+    points.addCap(way, 0.35, set);
+    points.addCap(other, 0.6, set);
+    std::vector<char> isIn, isDeep;
+    for (const Vec3d& u : spread.directions)
+        isIn.push_back(u.dot(way) > 0.35 || u.dot(other) > 0.6);
+    for (std::size_t i = 0; i < isIn.size(); ++i) {
+        bool deep = isIn[i];
+        for (std::size_t k = 0; k < isIn.size(); ++k)
+            if (!isIn[k] && (spread.directions[i] - spread.directions[k]).length() < chord)
+                deep = false;
+        isDeep.push_back(deep);
+    }
+    const auto marked = [&](const SpherePoints::Set& some) {
+        std::vector<char> out(isIn.size(), 0);
+        SpherePoints::forEach(some, [&](std::size_t k) { out[k] = 1; });
+        return out;
+    };
+    EXPECT_EQ(marked(set), isIn);
+    EXPECT_EQ(marked(points.eroded(set)), isDeep);
+    EXPECT_EQ(marked(points.eroded(set)), isDeep) << "once more, as the near points are known";
+    const auto count = std::size_t(std::count(isIn.begin(), isIn.end(), 1));
+    EXPECT_EQ(SpherePoints::count(set), count);
+    EXPECT_GT(count, 100u);
+    EXPECT_GT(std::count(isDeep.begin(), isDeep.end(), 1), 10);
 }
 
 // Sc of arpeggia 0.10.1 for these radii: 0.774.
@@ -85,14 +143,14 @@ TEST(Fit, OfTwoChainsIsTheSameInEveryPose)
             ball.radius = element == 7 ? 1.7 : element == 8 ? 1.5 : 1.9;
         }
     }
-    const auto first = FitMeasure().of(chains[0], chains[1], Progress());
+    const auto first = fitOf(chains[0], chains[1]);
     EXPECT_NEAR(first.shape, 0.774, 0.02);
     const openvdb::math::Quat<double> turn(Vec3d(1.0, 2.0, -0.5).unit(), 1.2);
     for (std::vector<Ball>& balls : chains)
         for (Ball& ball : balls)
             ball.center = turn.rotateVector(ball.center) + Vec3d(3.3, 1.1, 9.7);
     std::reverse(chains[0].begin(), chains[0].end());
-    const auto turned = FitMeasure().of(chains[1], chains[0], Progress());
+    const auto turned = fitOf(chains[1], chains[0]);
     EXPECT_NEAR(turned.shape, first.shape, 0.005);
     EXPECT_NEAR(turned.distance, first.distance, 0.005);
     EXPECT_NEAR(turned.gapVolume, first.gapVolume, 1e-3);

@@ -154,21 +154,17 @@ private:
     template<typename F>
     void forEachNear(const Vec3d& x, double reach, const F& f) const
     {
-        tree_.forEachNear(Box::about(x, reach), [&](std::size_t g) {
+        const auto inGroup = [&](std::size_t g) {
             const std::size_t end = std::min((g + 1) * BoxTree::group, runs_.size());
             for (std::size_t n = g * BoxTree::group; n < end; ++n) f(n);
-        });
+        };
+        if (runs_.size() <= BoxTree::group) return inGroup(0); // in less time than the tree takes
+        tree_.forEachNear(Box::about(x, reach), inGroup);
     }
 
     std::vector<Run> runs_;
     std::vector<Box> boxes_;
     BoxTree tree_;
-};
-
-/// The part of a surface that the other group buries, with and without its rim.
-struct Side {
-    double buriedArea = 0.0; ///< [Å^2]
-    ExcludedPoints trimmed;
 };
 
 /// Buried points, less those within a rim's width of an open one.
@@ -185,38 +181,6 @@ ExcludedPoints withoutRim(const ExcludedPoints& buried, const PointRuns& open,
     for (std::size_t i = 0; i < buried.size(); ++i)
         if (isInside[i]) out.push_back(buried[i]);
     return out;
-}
-
-/// Samples the solvent-excluded surface by points, and keeps those that the other group buries.
-/// @param[in] boundary  of the balls of this group near the other one. (A probe that would run into
-///                      a ball farther away is beyond the rim's width from any buried point.)
-Side sideOf(const BallBoundary& boundary, const BallIndex& other, ExcludedSampler& sampler,
-            const Progress& progress)
-{
-    // A probe that a ball of radius R blocks is within R + fitProbe of it, its point within
-    // fitProbe of the probe, and the points of its rim within rimWidth of that.
-    const auto counts = [&](const Vec3d& centre, double radius) {
-        const double beyond = radius + 2.0 * fitProbe + rimWidth;
-        return other.anyNear(centre, centre, beyond, [&](const Ball& ball) {
-            const double reach = ball.radius + beyond;
-            return (ball.center - centre).lengthSqr() < reach * reach;
-        });
-    };
-    const ExcludedPoints all = sampler.of(boundary, progress, counts);
-    const std::vector<char> blocked = blockedBy(other, all, progress);
-    ExcludedPoints buried;
-    std::vector<Vec3d> open;
-    Side side;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (!blocked[i]) {
-            open.push_back(all[i].position);
-            continue;
-        }
-        buried.push_back(all[i]);
-        side.buriedArea += all[i].area;
-    }
-    side.trimmed = withoutRim(buried, PointRuns(open), progress);
-    return side;
 }
 
 /// The weighted median: the least value that, with those below it, has half of the weight.
@@ -269,6 +233,17 @@ std::pair<double, double> mediansOf(const ExcludedPoints& points, const Excluded
     return {medianOf(std::move(shapes)), medianOf(std::move(distances))};
 }
 
+/// Whether the balls of a group touch each other with no probe, so that their surfaces are spheres
+/// more than two probes apart, which is more than the width of a rim; and whether these are so
+/// small that looking through all points for those near one takes no time.
+bool areSmallSpheres(const BallBoundary& boundary)
+{
+    constexpr double largest = 8.0; // radius [Å]
+    return boundary.arcs.empty() &&
+           std::all_of(boundary.patches.begin(), boundary.patches.end(),
+                       [](const Patch& patch) { return patch.radius - fitProbe <= largest; });
+}
+
 /// The volume of what no probe reaches [Å^3].
 double volumeOf(const BallBoundary& boundary, const Progress& progress)
 {
@@ -283,22 +258,93 @@ double volumeOf(const BallBoundary& boundary, const Progress& progress)
 
 } // namespace
 
+FitSurface::FitSurface(std::vector<Ball> balls, const Progress& progress)
+    : balls_(std::move(balls)), index_(balls_, cells),
+      boundary_(ballBoundary(balls_, fitProbe, progress)), volume_(volumeOf(boundary_, progress))
+{
+}
+
 FitMeasure::FitMeasure() : sampler_(fitProbe, density) {}
 
-Report::Interface::Fit FitMeasure::of(const std::vector<Ball>& first,
-                                      const std::vector<Ball>& second, const Progress& progress)
+/// @param[in] own  the balls of this group near the other one. (A probe that would run into a ball
+///                 farther away is beyond the rim's width from any buried point.)
+FitMeasure::Side FitMeasure::sideOf(const FitSurface& own, const FitSurface& other,
+                                    const Progress& progress)
+{
+    if (areSmallSpheres(own.boundary())) return sideOfSpheres(own, other);
+    // A probe that a ball of radius R blocks is within R + fitProbe of it, its point within
+    // fitProbe of the probe, and the points of its rim within rimWidth of that.
+    const auto counts = [&](const Vec3d& centre, double radius) {
+        const double beyond = radius + 2.0 * fitProbe + rimWidth;
+        return other.index().anyNear(centre, centre, beyond, [&](const Ball& ball) {
+            const double reach = ball.radius + beyond;
+            return (ball.center - centre).lengthSqr() < reach * reach;
+        });
+    };
+    const ExcludedPoints all = sampler_.of(own.boundary(), progress, counts);
+    const std::vector<char> blocked = blockedBy(other.index(), all, progress);
+    ExcludedPoints buried;
+    std::vector<Vec3d> open;
+    Side side;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!blocked[i]) {
+            open.push_back(all[i].position);
+            continue;
+        }
+        buried.push_back(all[i]);
+        side.buriedArea += all[i].area;
+    }
+    side.trimmed = withoutRim(buried, PointRuns(open), progress);
+    return side;
+}
+
+/// The same of areSmallSpheres(): all that is near a point lies on its own sphere.
+FitMeasure::Side FitMeasure::sideOfSpheres(const FitSurface& own, const FitSurface& other)
+{
+    Side side;
+    for (const Patch& patch : own.boundary().patches) {
+        const double R = patch.radius, r = R - fitProbe;
+        SpherePoints& points = pointsOf(r);
+        SpherePoints::Set buried = points.none();
+        other.index().forEachNear(
+            patch.centre, patch.centre, R + fitProbe, [&](const Ball& ball, std::int32_t) {
+                // The probe at R u from the centre is nearer than `reach` to the ball.
+                const Vec3d way = ball.center - patch.centre;
+                const double reach = ball.radius + fitProbe - touching;
+                points.addCap(way, (way.lengthSqr() + R * R - reach * reach) / (2.0 * R), buried);
+            });
+        const ExcludedSampler::Spread& spread = sampler_.spreadOver(r);
+        const double area = 4.0 * M_PI * r * r / double(spread.directions.size());
+        side.buriedArea += area * double(points.count(buried));
+        points.forEach(points.eroded(buried), [&](std::size_t k) {
+            const Vec3d& u = spread.directions[k];
+            side.trimmed.push_back({patch.centre + r * u, u, area});
+        });
+    }
+    return side;
+}
+
+SpherePoints& FitMeasure::pointsOf(double radius)
+{
+    constexpr std::size_t most = 16; // that are kept
+    const auto known = points_.find(radius);
+    if (known != points_.end()) return known->second;
+    if (points_.size() >= most) points_.clear();
+    return points_.try_emplace(radius, sampler_.spreadOver(radius), rimWidth / radius)
+        .first->second;
+}
+
+Report::Interface::Fit FitMeasure::of(const FitSurface& first, const FitSurface& second,
+                                      const Progress& progress)
 {
     Report::Interface::Fit fit;
-    if (first.empty() || second.empty()) return fit;
-    std::vector<Ball> both = first;
-    both.insert(both.end(), second.begin(), second.end());
-    const BallBoundary ofA = ballBoundary(first, fitProbe, progress),
-                       ofB = ballBoundary(second, fitProbe, progress);
+    if (first.balls().empty() || second.balls().empty()) return fit;
+    std::vector<Ball> both = first.balls();
+    both.insert(both.end(), second.balls().begin(), second.balls().end());
     // The gap is inside the surface of both together, and outside that of each by itself.
-    fit.gapVolume = volumeOf(ballBoundary(both, fitProbe, progress), progress) -
-                    volumeOf(ofA, progress) - volumeOf(ofB, progress);
-    const Side a = sideOf(ofA, BallIndex(second, cells), sampler_, progress),
-               b = sideOf(ofB, BallIndex(first, cells), sampler_, progress);
+    fit.gapVolume = volumeOf(ballBoundary(both, fitProbe, progress), progress) - first.volume() -
+                    second.volume();
+    const Side a = sideOf(first, second, progress), b = sideOf(second, first, progress);
     const double area = 0.5 * (a.buriedArea + b.buriedArea);
     if (area > 0.0) fit.gapIndex = fit.gapVolume / area;
     if (a.trimmed.empty() || b.trimmed.empty()) return fit;

@@ -4,11 +4,14 @@
 /// @file
 /// How well the surfaces of two groups of atoms fit each other.
 
+#include "molsurf/analysis/measures/sphere_points.h"
 #include "molsurf/ball.h"
+#include "molsurf/kernel/balls/ball_index.h"
 #include "molsurf/kernel/balls/excluded_points.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 
+#include <map>
 #include <vector>
 
 namespace molsurf
@@ -18,6 +21,25 @@ namespace molsurf
 /// buried point and one of the rim beside it are 1.5 Å apart, and each is 1.7 Å from the centre of
 /// its probe.
 constexpr double fitReach = 8.3;
+
+/// The solvent-excluded surface of a group alone, for a probe of 1.7 Å.
+class FitSurface
+{
+public:
+    /// @param[in] balls  every one finite
+    FitSurface(std::vector<Ball> balls, const Progress& progress);
+
+    const std::vector<Ball>& balls() const { return balls_; }
+    const BallIndex& index() const { return index_; }
+    const BallBoundary& boundary() const { return boundary_; }
+    double volume() const { return volume_; } ///< of what no probe reaches [Å^3]
+
+private:
+    std::vector<Ball> balls_;
+    BallIndex index_;
+    BallBoundary boundary_; // of the balls grown by the probe
+    double volume_;
+};
 
 /// Measures fits of two groups: their solvent-excluded surfaces, each alone, for a probe of 1.7
 /// Å, where the probe of a point would run into the other group, more than 1.5 Å from where none
@@ -32,13 +54,24 @@ public:
     FitMeasure();
 
     /// One thread at a time.
-    /// @param[in] first, second  every ball finite. Those farther than fitReach from the other side
-    ///                           change nothing but the time.
-    Report::Interface::Fit of(const std::vector<Ball>& first, const std::vector<Ball>& second,
+    /// @param[in] first, second  Balls farther than fitReach from the other side change nothing but
+    ///                           the time.
+    Report::Interface::Fit of(const FitSurface& first, const FitSurface& second,
                               const Progress& progress);
 
 private:
+    /// The part of a surface that the other group buries.
+    struct Side {
+        double buriedArea = 0.0; ///< [Å^2]
+        ExcludedPoints trimmed;  ///< buried ones, less those of the rim
+    };
+
+    Side sideOf(const FitSurface& own, const FitSurface& other, const Progress& progress);
+    Side sideOfSpheres(const FitSurface& own, const FitSurface& other);
+    SpherePoints& pointsOf(double radius);
+
     ExcludedSampler sampler_;
+    std::map<double, SpherePoints> points_; // of spheres, by their radii
 };
 
 } // namespace molsurf
