@@ -177,8 +177,9 @@ void shiftBack(const openvdb::Vec3d& shift, std::vector<openvdb::Vec3f>& points)
     for (openvdb::Vec3f& x : points) x = openvdb::Vec3f(openvdb::Vec3d(x) - shift);
 }
 
-// The middle of the mesh's box comes to the origin, with what pictures and pages show beside it;
-// grids and other atoms follow when they are written.
+// The middle of the mesh's box comes to the origin, of frames that of the first one (FrameRun sets
+// scene.center), with what pictures and pages show beside it. Grids and other atoms follow when
+// they are written. Panels share the model, so it is copied.
 void centerMesh(CommandLine& call, MolecularSurface& result, Mesh& bodies)
 {
     const openvdb::Vec3d center =
@@ -309,14 +310,15 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     checkGroups(call, balls);
     chooseWork(call);
     const RunLimits limits = limitsOf(call, balls);
-    const double seconds = checkCost(balls, call.options, limits, terminal);
+    const double coreSeconds = checkCost(balls, call.options, limits, terminal);
     constexpr double any = std::numeric_limits<double>::infinity();
-    if (!call.options.grid) {
+    if (!call.options.grid) { // in closed form, without the stages of voxels
         terminal.limitTo(any, call.hours);
     } else {
-        terminal.limitTo(isEstimated(call.options) ? seconds : any, call.hours);
-        terminal.expect(stagesOf(call.options, limits.besides.seconds / (seconds + 1e-9)),
-                        seconds / limits.threads);
+        constexpr double some = 1e-9; // lest the estimate is 0
+        terminal.limitTo(isEstimated(call.options) ? coreSeconds : any, call.hours);
+        terminal.expect(stagesOf(call.options, limits.besides.seconds / (coreSeconds + some)),
+                        coreSeconds / limits.threads);
     }
     MolecularSurface result;
     try {
@@ -362,7 +364,8 @@ Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Ter
     ShownMeshes shown = shownMeshes(call, call.options, balls, result.mesh, {}, terminal);
     shown.bodies = bodies;
     shown.drawnBodies = drawn;
-    shown.coarser = coarserMeshes(call, balls, result.report, terminal);
+    shown.coarser = coarserMeshes( // not with --center
+        call, balls, result.report, terminal);
     if (!call.options.needs.levelSet) dropGrids(result);
     writeAll(call, balls, result, shown, terminal, start, companions);
     terminal.erase();

@@ -81,8 +81,8 @@ int plan(CommandLine call)
     InputFiles(call).refuse(atomsFile);
     checkWritable(atomsFile, call.force);
     prepareOutputs(call, {temporaryName(atomsFile)});
-    call.labels.names = false; // bricks use none
-    call.atoms.assembly.folded = true;
+    call.labels.names = false;         // bricks use none
+    call.atoms.assembly.folded = true; // atoms of one copy, with the motions of all
     Terminal terminal(call.progress);
     Report report;
     PlanManifest manifest;
@@ -97,7 +97,7 @@ int plan(CommandLine call)
     // Bricks run in processes of their own, and read their atoms from disk.
     manifest.plan = planBricks(atoms, call.options,
                                {std::size_t(call.bricks), call.memory, false, true}, terminal);
-    colorBalls(call.options, terminal, atoms);
+    colorBalls(call.options, terminal, atoms); // the bricks' atoms are written with their colours
     terminal.erase();
 
     OutputFiles files;

@@ -43,7 +43,8 @@ Report buildSurface(CommandLine call, std::chrono::steady_clock::time_point star
 Report buildSurface(const CommandLine& call, const BallSet& balls, const Report& read,
                     Terminal& terminal, std::chrono::steady_clock::time_point start);
 
-/// The part of that which says little: runs and writes. prepareOutputs() has been called.
+/// Makes the surface of balls that are read, checks and shows it, and writes the files.
+/// prepareOutputs() has been called.
 /// @param[in] call    with --center and a frame the centre of the scene is taken, else chosen
 /// @param[in] extend  changes the result before it is written; may be empty
 Report surfaceOf(CommandLine call, const BallSet& balls, const Report& read, Terminal& terminal,

@@ -45,6 +45,7 @@ std::size_t findGroup(const std::vector<Group>& groups, const std::string& name)
                                       (groups.size() > 8 ? ", ..." : "") + "]");
 }
 
+/// Groups that get a surface of their own, and all other balls as one part; without empty ones.
 std::vector<Part> partsOf(const BallSet& atoms, const SurfaceOptions& options)
 {
     const std::vector<Group>& groups = atoms.labels->groups;

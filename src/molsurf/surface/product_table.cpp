@@ -183,7 +183,7 @@ double gyrationRadius(const MolecularSurface& surface, const Progress& progress)
                 return openvdb::Vec3d(mesh.positions[mesh.triangles[t][k]]) - origin;
             };
             const openvdb::Vec3d x = corner(0), y = corner(1), z = corner(2), all = x + y + z;
-            const double v = x.dot(y.cross(z)) / 6.0;
+            const double v = x.dot(y.cross(z)) / 6.0; // of the tetrahedron with the origin
             sum += {v, v / 4.0 * all,
                     v / 20.0 * (x.lengthSqr() + y.lengthSqr() + z.lengthSqr() + all.lengthSqr())};
         }

@@ -248,6 +248,8 @@ ColorBy storedColors(const Source& from)
     return ColorBy::Nothing;
 }
 
+/// Refuses colours that a file has no grids for. Those of chains and groups are read from ids, all
+/// others from the stored Cd; both need the spline.
 [[noreturn]] void cannotColor(ColorBy by, const openvdb::GridPtrVec& grids)
 {
     const std::string word = nameOf(by);

@@ -319,9 +319,10 @@ void assign(const Pieces& pieces, const std::vector<Ball>& rooms, double probe,
 }
 
 /// Gives the parts that voxels are in numbers, in the order of the parts.
-/// @param[in,out] basins  of voxels their parts, then the numbers of these
-/// @return of each part its number, or -1: no voxel is in it
-std::vector<std::int32_t> number(const VoidField& space, Parts& parts, Basins& basins)
+/// @param[in,out] basins  of voxels, whose clearance is above 0, the roots of their parts; then the
+///                        numbers of these
+/// @return of each part that of its root, or -1: no voxel is in it
+std::vector<std::int32_t> numberParts(const VoidField& space, Parts& parts, Basins& basins)
 {
     std::vector<float> peaks(parts.size(), 0.0f);
     const auto forEachVoxel = [&](const auto& f) {
@@ -391,7 +392,7 @@ RoomBasins splitAtRooms(const std::vector<Ball>& balls, double probe, const Void
     known.noteTouching(below, parts);
     const std::vector<Ball> rooms = known.rooms();
     assign(pieces, rooms, probe, progress, parts, out.basins);
-    out.ofNodes = number(space, parts, out.basins);
+    out.ofNodes = numberParts(space, parts, out.basins);
     addNecks(out.ofNodes, parts, out.basins);
     addWidest(rooms, out.ofNodes, out);
     out.ofNodes.resize(out.graph.nodes.size());

@@ -152,8 +152,9 @@ Report::Tunnels findTunnels(const std::vector<Ball>& balls, const SearchPlaces::
 {
     const Clearance clearance(balls);
     const OuterDepth outer(balls, options.probeOut, OuterDepth::Reach::Passed, progress);
+    // How deep a place lies below what the large probe reaches. A poor guess costs time alone.
     const DepthAt depth = [&](const Vec3d& x, double room) {
-        constexpr double near = 4.0; // a guess at how far below the surface places are [Å]
+        constexpr double near = 4.0; // [Å]
         return outer.at(x, room >= options.probeOut, options.probeOut + near);
     };
     const std::vector<Vec3d> points(from.isPoint ? 1 : 0, from.place);
@@ -161,7 +162,8 @@ Report::Tunnels findTunnels(const std::vector<Ball>& balls, const SearchPlaces::
     const Rooms rooms = roomsOf(graph);
     const std::int32_t start =
         startOf(graph, rooms, from, clearance.at(from.place), options, depth);
-    const std::vector<VoidWay> ways = waysOut(graph, rooms, start, options.probeOut, depth);
+    const std::vector<VoidWay> ways = // the widest first
+        waysOut(graph, rooms, start, options.probeOut, depth);
     const VoidGraph::Node& node = graph.nodes[std::size_t(start)];
     if (ways.empty())
         throw Error(ErrorKind::Input,

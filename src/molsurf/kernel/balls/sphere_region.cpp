@@ -166,8 +166,10 @@ bool holds(const std::vector<SphereCap>& caps, const std::vector<RimArc>& arcs, 
     return odd;
 }
 
-/// Joins loops to faces: each one that is anticlockwise bounds a face of its own, each other one is
-/// a hole of the one that holds it.
+/// Joins loops to faces: each one that is anticlockwise (area > 0) bounds a face of its own, each
+/// other one is a hole of the smallest that holds it, or of the sphere where none does. A region
+/// without loops is the whole sphere, one face.
+/// @param[in] inside  a direction whose opposite lies outside of all loops
 void gatherFaces(const std::vector<SphereCap>& caps, const Vec3d& inside,
                  const std::vector<RegionFace>& loops, SphereRegion& region)
 {

@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
+/// What may help against an error of the system, by its errno; empty: not known.
 std::string hint(const std::string& path, int reason)
 {
     switch (reason) {

@@ -175,7 +175,7 @@ private:
         out_ << in << "}\n";
     }
 
-    /// The prims of one level of detail.
+    /// The properties of the instancer that depend on the level of detail.
     void writeLevel(std::size_t number, const std::string& in)
     {
         out_ << in;

@@ -28,6 +28,7 @@ public:
     {
     }
 
+    /// @param[in] declared  a film's layer, whose properties have no values: files of frames do
     void write(const Head& head, bool declared)
     {
         writeHead(head, !declared);

@@ -10,8 +10,10 @@
 #include "molsurf/show/color/legend.h"
 #include "molsurf/show/io/output_file.h"
 #include "molsurf/show/picture/atom_model.h"
+#include "molsurf/show/picture/draw_mesh.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
