@@ -155,7 +155,10 @@ Settings settingsOf(const Given& given, const GroupWords& groups)
     for (const auto& [group, select] : groups)
         settings.labels.groups.push_back({group, select, {}});
     resolveGroups(settings);
-    if (settings.colorGroups) settings.labels.groupBy = settings.colorGroups; // of copies, too
+    if (settings.colorGroups) { // of copies, too
+        settings.labels.groupBy = settings.colorGroups;
+        settings.options.color = ColorBy::Group;
+    }
     return settings;
 }
 
@@ -200,13 +203,12 @@ molsurf::Molecule movedTo(const BallSet& now, const molsurf::Molecule& file)
 }
 
 /// The same atoms, where they are now, with other labels and places.
-/// @param[in] given  as of read(), with what is asked for
+/// @param[in] settings  as of read(), with what is asked for
 std::pair<std::shared_ptr<BallSet>, SearchPlaces> asked(const Molecule& molecule,
-                                                        const Given& given, const How& how)
+                                                        const Settings& settings, const How& how)
 {
     if (!molecule.file) failWithoutFile("surface");
     const BallSet& now = *molecule.atoms;
-    const Settings settings = settingsOf(given, molecule.groups);
     const double probe = probeOf(settings.options);
     return run(how, [&](const Progress& progress) {
         const auto ballsOf = [&](const molsurf::Molecule& file) {
@@ -351,13 +353,9 @@ MadeSurface surfaceOf(std::shared_ptr<BallSet> balls, const std::string& source,
 
 /// Options of the surface of a molecule.
 /// @param[in] extra  switches that have no row
-SurfaceOptions optionsOf(const Given& given, const std::vector<std::string>& extra,
+SurfaceOptions optionsOf(SurfaceOptions options, const std::vector<std::string>& extra,
                          const std::string& areasOf)
 {
-    Settings settings = settingsOf(given);
-    resolveGroups(settings);
-    if (settings.colorGroups) settings.options.color = ColorBy::Group;
-    SurfaceOptions& options = settings.options;
     options.energy = false;
     for (const std::string& name : extra) {
         if (name == "atom_areas") options.ballAreas = true;
@@ -368,13 +366,13 @@ SurfaceOptions optionsOf(const Given& given, const std::vector<std::string>& ext
 }
 
 /// Adds the warnings of settings to those of a surface.
-void addWarnings(const Given& given, Report& report)
+void addWarnings(const Settings& settings, const Given& given, Report& report)
 {
     const auto isGiven = [&](const char* name) {
         return std::any_of(given.begin(), given.end(),
                            [&](const auto& one) { return one.first == name; });
     };
-    for (const std::string& warning : settingWarnings(settingsOf(given), isGiven))
+    for (const std::string& warning : settingWarnings(settings, isGiven))
         report.warnings.push_back(withKeywords(warning));
 }
 
@@ -682,17 +680,18 @@ void addMolecule(nb::module_& m)
              [](const Molecule& v, const Given& given, const std::vector<std::string>& extra,
                 const std::string& areasOf, bool again, Listener progress, int threads) {
                  const How how{progress, threads};
-                 SurfaceOptions options = optionsOf(given, extra, areasOf);
+                 const Settings settings = settingsOf(given, v.groups);
+                 SurfaceOptions options = optionsOf(settings.options, extra, areasOf);
                  const bool grouped = v.atoms->labels && !v.atoms->labels->groups.empty();
-                 again = again || (settingsOf(given, v.groups).labels.groupBy && !grouped);
+                 again = again || (settings.labels.groupBy && !grouped);
                  auto [atoms, places] =
-                     again ? asked(v, given, how)
+                     again ? asked(v, settings, how)
                            : std::pair(std::make_shared<BallSet>(*v.atoms), v.places);
                  options.places = std::move(places);
                  MadeSurface made = surfaceOf(std::move(atoms), v.source, options, how);
-                 addWarnings(given, made.result.report);
+                 addWarnings(settings, given, made.result.report);
                  made.file = v.file;
-                 made.select = settingsOf(given).atoms;
+                 made.select = settings.atoms;
                  return made;
              })
         .def("select",
@@ -805,8 +804,11 @@ void addFunctions(nb::module_& m)
                         Listener progress, int threads) {
         auto atoms = std::make_shared<BallSet>();
         atoms->balls = ballsOf(positions, radii);
-        return surfaceOf(std::move(atoms), "", optionsOf(given, extra, areasOf),
-                         {progress, threads});
+        const Settings settings = settingsOf(given, {});
+        MadeSurface made = surfaceOf(
+            std::move(atoms), "", optionsOf(settings.options, extra, areasOf), {progress, threads});
+        addWarnings(settings, given, made.result.report);
+        return made;
     });
     m.def("areas", [](const Positions& positions, const Numbers& radii, double probe,
                       Listener progress, int threads) {
@@ -837,7 +839,7 @@ void addFunctions(nb::module_& m)
     });
     m.def("unpack_surface", [](const nb::bytes& bytes, const Given& given,
                                const std::vector<std::string>& extra, const std::string& areasOf) {
-        return unpackSurface(bytes, optionsOf(given, extra, areasOf));
+        return unpackSurface(bytes, optionsOf(settingsOf(given, {}).options, extra, areasOf));
     });
 }
 

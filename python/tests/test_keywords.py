@@ -8,6 +8,7 @@ import re
 import runpy
 import sys
 
+import pytest
 import vdb_molsurf as ms
 from conftest import ROOT
 from vdb_molsurf import _core, _options
@@ -65,6 +66,10 @@ def test_keywords_of_before_are_taken(crambin, tmp_path):
                                "outward": "potential_offset"}
     thick = [crambin.surface(voxel=2.0, **{name: 3}) for name in ("min_wall", "min_thickness")]
     assert thick[0].area == thick[1].area != crambin.surface(voxel=2.0).area
+    with pytest.raises(TypeError, match="min_thickness: is given twice, also as min_wall"):
+        crambin.surface(voxel=2.0, min_thickness=3, min_wall=4)
+    with pytest.raises(TypeError, match="pieces: is given twice"):
+        thick[0].save(tmp_path / "a.obj", walls="outer", pieces="all")
     for old, new, more in (("walls", "pieces", "outer"), ("all_walls", "show_behind", True)):
         for name in (old, new):
             thick[0].picture(tmp_path / f"{name}.png", 64, opacity=0.5, **{name: more})

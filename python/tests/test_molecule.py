@@ -67,6 +67,8 @@ def test_defaults_that_depend_are_those_of_the_command_line(crambin):
     assert len(s.colors) == len(s.vertices)
     warned = crambin.surface(kind="ses", voxel=1, epsilon=0.3, blobbiness=2).report["warnings"]
     assert warned == ["`blobbiness` is for `kind` gaussian", "`epsilon` is for `kind` variational or smooth-sas"]
+    balls = ms.surface(crambin.positions, crambin.radii, kind="ses", voxel=1, epsilon=0.3)
+    assert balls.report["warnings"] == ["`epsilon` is for `kind` variational or smooth-sas"]
     assert crambin.surface(voxel=1, epsilon=0.3).report["warnings"] == ["`epsilon` 0.3: a tolerance below half a voxel is not resolved"]
 
 

@@ -200,7 +200,7 @@ def _checked(options):
 
 def _settings(options):
     """What keywords say, in one way: settings with their values as texts, without what changes no number."""
-    pairs = _options.given({name: value for name, value in _options.today(options).items() if name not in _options.MORE}, "atoms",
+    pairs = _options.given({name: value for name, value in options.items() if name not in _options.MORE}, "atoms",
                            _options.MORE)
     return pairs + [(name, [value]) for name, value in options.items()
                     if name in _options.MORE and name not in ("threads", "progress")]

@@ -196,7 +196,7 @@ class Molecule:
         """
         if not self._core.is_whole:
             options.setdefault("atom_areas", False)
-        options, extra, areas_of, how = _split(_options.today(options))
+        options, extra, areas_of, how = _split(options)
         pairs = _options.given(options, "molecule", _options.MORE)
         known = dict(self._given)
         again = any(values != known.get(name) and
@@ -234,8 +234,7 @@ def read(source, *, groups=None, progress=None, threads=0, **options):
 
     Keywords:
     """
-    options = _options.today(options)
-    asked = sorted(_options.ASKED_LATER & {name for name, value in options.items() if value is not None})
+    asked = sorted(_options.ASKED_LATER & {name for name, value in _options.today(options).items() if value is not None})
     if asked:
         warnings.warn(f"read: {', '.join(asked)} will be of Molecule.surface() alone", DeprecationWarning, stacklevel=2)
     return _read(source, groups, progress, threads, options)
@@ -243,7 +242,7 @@ def read(source, *, groups=None, progress=None, threads=0, **options):
 
 def _read(source, groups, progress, threads, options):
     """read(), and what asks for the surface at once."""
-    given = _options.given(_options.today(options), "atoms", ("groups", "progress", "threads"))
+    given = _options.given(options, "atoms", ("groups", "progress", "threads"))
     if groups is not None and not (hasattr(groups, "items") and all(
             isinstance(k, str) and isinstance(v, str) for k, v in groups.items())):
         raise TypeError("groups: expected a dict of selections by name")

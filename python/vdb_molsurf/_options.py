@@ -19,8 +19,15 @@ FORMER = {old.replace("-", "_"): new.replace("-", "_") for old, new in _core.for
 
 
 def today(options):
-    """The keywords with their names of today."""
-    return {FORMER.get(name, name): value for name, value in options.items()}
+    """The keywords with their names of today. Those that are None or False count as not given."""
+    out = {}
+    for former, value in options.items():
+        name = FORMER.get(former, former)
+        if out.get(name) is None or out[name] is False:
+            out[name] = value
+        elif value is not None and value is not False:
+            raise TypeError(f"{name}: is given twice, also as {former}")
+    return out
 
 
 # Keywords without a row: what stands for their values, the default, and what they do.
@@ -88,7 +95,7 @@ def given(options, where, more=()):
     that atoms need are.
     """
     pairs = []
-    for name, value in options.items():
+    for name, value in today(options).items():
         if name not in KEYWORDS:
             raise unknown(name, [*KEYWORDS, *more])
         row = KEYWORDS[name]

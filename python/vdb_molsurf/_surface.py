@@ -397,7 +397,8 @@ class Surface:
     def to_trimesh(self):
         """Makes a trimesh.Trimesh of a copy of the mesh, with vertex normals, and vertex colours if there are any.
 
-        Its `vertex_attributes` hold vertex_data: curvatures, atom_id and others, an array of n rows each, vectors with three columns.
+        Its `vertex_attributes` hold vertex_data: curvatures, atom_id and others, an array of n rows each; directions have
+        three columns.
 
         Raises ImportError without the package trimesh, AttributeError for a surface without a mesh.
         """
@@ -408,8 +409,9 @@ class Surface:
         return mesh
 
     def to_pyvista(self):
-        """Makes a pyvista.PolyData of a copy of the mesh, whose `point_data` holds vertex_data, Normals and RGB. Directions are vectors (n, 3), as for
-        `mesh.glyph(orient="principal_direction_1", scale=False)`.
+        """Makes a pyvista.PolyData of a copy of the mesh, whose `point_data` holds vertex_data, Normals and RGB.
+
+        Directions are vectors (n, 3), as for `mesh.glyph(orient="principal_direction_1", scale=False)`.
 
         Raises ImportError without the package pyvista, AttributeError for a surface without a mesh.
         """
@@ -453,7 +455,7 @@ class Surface:
         Raises OptionError if the name ends otherwise, or if the file does not show what was asked or needs what the surface
         was made without; OutputError if it cannot be written.
         """
-        look = {"pieces": pieces, "sharp_colors": sharp_colors, **_options.today(look)}
+        look = _options.today({"pieces": pieces, "sharp_colors": sharp_colors, **look})
         unknown = sorted(set(look) - set(LOOK))
         if unknown:
             raise TypeError(f"save() got an unexpected keyword argument '{unknown[0]}'")
@@ -608,7 +610,7 @@ def surface(positions, radii, **options):
 
     Keywords:
     """
-    options, extra, areas_of, how = _split(_options.today(options))
+    options, extra, areas_of, how = _split(options)
     made = _made(_options.given(options, "surface", _options.MORE), extra, areas_of)
     for name, values in made[0]:
         if name == "color" and _options.of_file(values[0], ("none", "mean-curvature", "gaussian-curvature")):
