@@ -423,13 +423,12 @@ OptionGroup sceneOptions()
 
 OptionGroup printOptions()
 {
-    Option wall = numberRow<CommandLine>(
-        {"min-thickness", "W", "thicken what is thinner than W mm; with --print-scale"},
-        {1e-300, 1e300, "a positive number of mm"}, MOLSURF_OF(wall));
-    wall.former = "min-wall";
-    wall = stored(wall, MOLSURF_OF(options.minThickness));
+    Option wall = setting("min-thickness", wholes); // in mm here
+    wall.text = "thicken what is thinner than W mm; with --print-scale";
+    wall.set =
+        numberSetter("min-thickness", 1e-300, 1e300, "a positive number of mm", MOLSURF_OF(wall));
     return {"Print",
-            {setting("print-scale", wholes | Convert), of(wholes, wall)},
+            {setting("print-scale", wholes | Convert), wall},
             {{"vdb_molsurf 1crn.pdb --print-scale 2 -o 1crn.3mf", "a print of 2 mm per Å"},
              {"vdb_molsurf 1crn.pdb --print-scale 2 --min-thickness 1 --pieces outer -o 1crn.stl",
               "no wall thinner than 1 mm, without cavities"}}};

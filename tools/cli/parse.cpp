@@ -50,14 +50,12 @@ po::options_description describe(Verb verb)
             if (!(option.verbs & verb)) continue;
             const std::string names =
                 option.name + (option.letter ? std::string(",") + option.letter : "");
-            if (option.value)
-                all.add_options()(names.c_str(), po::value<std::string>());
-            else
-                all.add_options()(names.c_str(), po::bool_switch());
-            if (option.former && option.value)
-                all.add_options()(option.former, po::value<std::string>());
-            else if (option.former)
-                all.add_options()(option.former, po::bool_switch());
+            for (const char* words : {names.c_str(), option.former}) {
+                if (words && option.value)
+                    all.add_options()(words, po::value<std::string>());
+                else if (words)
+                    all.add_options()(words, po::bool_switch());
+            }
         }
     }
     all.add_options()("help,h", po::bool_switch())("help-all", po::bool_switch())(

@@ -28,30 +28,28 @@ struct NumberRange {
     const char* words;
 };
 
+/// The row of a value that a setter reads.
+/// @param[in] set  of a target and its values
+template<typename To, typename Set>
+OptionRow<To> valueRow(RowTexts texts, SettingType type, const Set& set)
+{
+    return {texts.name, type, texts.value, std::move(texts.text), std::move(texts.preset), {}, set};
+}
+
 /// The row of a number in a range.
 template<typename To, typename Of>
 OptionRow<To> numberRow(RowTexts texts, const NumberRange& range, const Of& of)
 {
-    return {texts.name,
-            SettingType::Number,
-            texts.value,
-            std::move(texts.text),
-            std::move(texts.preset),
-            {},
-            numberSetter(texts.name, range.low, range.high, range.words, of)};
+    const auto set = numberSetter(texts.name, range.low, range.high, range.words, of);
+    return valueRow<To>(std::move(texts), SettingType::Number, set);
 }
 
 /// The row of a whole number in a range.
 template<typename To, typename Of>
 OptionRow<To> countRow(RowTexts texts, int low, int high, const Of& of)
 {
-    return {texts.name,
-            SettingType::Whole,
-            texts.value,
-            std::move(texts.text),
-            std::move(texts.preset),
-            {},
-            countSetter(texts.name, low, high, of)};
+    const auto set = countSetter(texts.name, low, high, of);
+    return valueRow<To>(std::move(texts), SettingType::Whole, set);
 }
 
 /// The row of a switch.
@@ -59,26 +57,17 @@ OptionRow<To> countRow(RowTexts texts, int low, int high, const Of& of)
 template<typename To, typename Of, typename T = bool>
 OptionRow<To> switchRow(const char* name, std::string text, const Of& of, T on = T(true))
 {
-    return {name,
-            SettingType::Switch,
-            nullptr,
-            std::move(text),
-            "",
-            {},
-            [of, on](To& to, const std::vector<std::string>&) { of(to) = on; }};
+    return valueRow<To>({name, nullptr, std::move(text)}, SettingType::Switch,
+                        [of, on](To& to, const std::vector<std::string>&) { of(to) = on; });
 }
 
 /// The row of any text.
 template<typename To, typename Of>
 OptionRow<To> textRow(RowTexts texts, const Of& of)
 {
-    return {texts.name,
-            SettingType::Text,
-            texts.value,
-            std::move(texts.text),
-            std::move(texts.preset),
-            {},
-            [of](To& to, const std::vector<std::string>& values) { of(to) = values.back(); }};
+    return valueRow<To>(
+        std::move(texts), SettingType::Text,
+        [of](To& to, const std::vector<std::string>& values) { of(to) = values.back(); });
 }
 
 /// The row of one of a few values that nameOf() names, the first of them the default.
@@ -86,15 +75,10 @@ template<typename To, typename Of, typename Enum>
 OptionRow<To> wordRow(const char* name, std::string text, const std::vector<Enum>& choices,
                       const Of& of, const std::vector<Synonyms>& others = {})
 {
-    std::vector<std::string> words;
-    for (const Enum choice : choices) words.push_back(nameOf(choice));
-    return {name,
-            SettingType::Word,
-            "WORD",
-            std::move(text),
-            words.front(),
-            words,
-            wordSetter(name, choices, of, others)};
+    auto row = valueRow<To>({name, "WORD", std::move(text), nameOf(choices.front())},
+                            SettingType::Word, wordSetter(name, choices, of, others));
+    for (const Enum choice : choices) row.words.push_back(nameOf(choice));
+    return row;
 }
 
 /// The row of values that a parser reads one by one.
@@ -102,15 +86,10 @@ OptionRow<To> wordRow(const char* name, std::string text, const std::vector<Enum
 template<typename To, typename Parse>
 OptionRow<To> rulesRow(RowTexts texts, const Parse& parse)
 {
-    return {texts.name,
-            SettingType::Rules,
-            texts.value,
-            std::move(texts.text),
-            std::move(texts.preset),
-            {},
-            [parse](To& to, const std::vector<std::string>& values) {
-                for (const std::string& value : values) parse(to, value);
-            }};
+    return valueRow<To>(std::move(texts), SettingType::Rules,
+                        [parse](To& to, const std::vector<std::string>& values) {
+                            for (const std::string& value : values) parse(to, value);
+                        });
 }
 
 /// The row with the formats that show it.

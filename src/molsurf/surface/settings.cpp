@@ -82,7 +82,7 @@ Setting text(const char* name, const char* value, std::string help, const char* 
                   shown);
 }
 
-/// One of a few values that nameOf() names, the first of them the default.
+/// One of a few values that nameOf() names.
 template<typename Of, typename Enum>
 Setting word(const char* name, const char* value, std::string help, const Of& of,
              const std::vector<Enum>& choices)

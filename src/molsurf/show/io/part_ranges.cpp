@@ -49,14 +49,20 @@ void appendPart(const Mesh& mesh, const PartRange& range, Mesh& out)
     }
 }
 
-std::string vectorAt(const Mesh& mesh, std::size_t scalar)
+std::vector<VertexField> vertexFields(const Mesh& mesh)
 {
-    if (scalar + 3 > mesh.scalars.size()) return "";
-    const std::string& first = mesh.scalars[scalar].name;
-    const std::string name = first.substr(0, first.size() - std::min<std::size_t>(first.size(), 2));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (mesh.scalars[scalar + axis].name != name + "_" + "xyz"[axis]) return "";
-    return name;
+    const auto& all = mesh.scalars;
+    std::vector<VertexField> out;
+    for (std::size_t s = 0; s < all.size(); s += out.back().count) {
+        const std::string& first = all[s].name;
+        const std::string stem =
+            first.substr(0, first.size() - std::min<std::size_t>(first.size(), 2));
+        bool isVector = s + 3 <= all.size();
+        for (std::size_t axis = 0; axis < 3 && isVector; ++axis)
+            isVector = all[s + axis].name == stem + "_" + "xyz"[axis];
+        out.push_back({isVector ? stem : first, &all[s], isVector ? std::size_t(3) : 1});
+    }
+    return out;
 }
 
 } // namespace molsurf

@@ -26,8 +26,15 @@ std::vector<PartRange> partRanges(const Mesh& mesh, const std::string& name);
 /// Appends a part of a mesh as a part of another, with the values and labels that the other has.
 void appendPart(const Mesh& mesh, const PartRange& range, Mesh& out);
 
-/// The name of the vector whose components a scalar and the two behind it are: NAME_x, NAME_y and
-/// NAME_z. Empty: it begins none.
-std::string vectorAt(const Mesh& mesh, std::size_t scalar);
+/// What a mesh has at its vertices: one of its scalars, or a vector, of three in turn that are
+/// named NAME_x, NAME_y and NAME_z.
+struct VertexField {
+    std::string name;
+    const Attribute<float>* components; ///< the first of them
+    std::size_t count;                  ///< 1 or 3
+};
+
+/// All of them, in the order of Mesh::scalars.
+std::vector<VertexField> vertexFields(const Mesh& mesh);
 
 } // namespace molsurf

@@ -67,8 +67,7 @@ constexpr ReportKey keyTable[] = {
      "voxel; null for other kinds and without a mesh"},
     {"surface.triangle_area", "Å²",
      "Area of the flat triangles, as in files, but for those that `sharp_colors` cuts; null "
-     "without a "
-     "mesh and in bricks"},
+     "without a mesh and in bricks"},
     {"surface.mesh_components", "",
      "Number of closed pieces of the mesh, walls of cavities included; null without a mesh"},
     {"surface.mesh_volume", "Å³", "Volume of that mesh"},

@@ -104,15 +104,9 @@ private:
         attributes["POSITION"] = addPositions(range);
         attributes["NORMAL"] = addNormals(range);
         if (!mesh_->colors.empty()) attributes["COLOR_0"] = addColors(range);
-        for (std::size_t s = 0; s < mesh_->scalars.size(); ++s) {
-            const std::string vector = vectorAt(*mesh_, s);
-            const std::string name = vector == "v"    ? "velocity"
-                                     : vector.empty() ? mesh_->scalars[s].name
-                                                      : vector;
-            const std::size_t components = vector.empty() ? 1 : 3;
-            attributes[attributeName(name)] = addScalars(range, s, components);
-            s += components - 1;
-        }
+        for (const VertexField& field : vertexFields(*mesh_))
+            attributes[attributeName(field.name == "v" ? "velocity" : field.name)] =
+                addField(range, field);
         for (const auto& label : mesh_->labels)
             attributes[attributeName(label.name)] = addNumbers(range, label.values);
         return {{"attributes", attributes}, {"indices", addTriangles(range)}};
@@ -230,17 +224,17 @@ private:
         return number;
     }
 
-    /// Adds one scalar, or the three of a vector. glTF has no NaN: they are 0.
-    std::size_t addScalars(const PartRange& range, std::size_t first, std::size_t components)
+    /// glTF has no NaN: they are 0.
+    std::size_t addField(const PartRange& range, const VertexField& field)
     {
         const std::size_t begin = bytes_.size();
         for (std::size_t v = range.firstVertex; v < range.vertexEnd; ++v)
-            for (std::size_t c = first; c < first + components; ++c) {
-                const float value = mesh_->scalars[c].values[v];
+            for (std::size_t c = 0; c < field.count; ++c) {
+                const float value = field.components[c].values[v];
                 append(std::isfinite(value) ? value : 0.0f);
             }
         return close(begin, range.vertexEnd - range.firstVertex, floatType,
-                     components == 3 ? "VEC3" : "SCALAR", vertexTarget);
+                     field.count == 3 ? "VEC3" : "SCALAR", vertexTarget);
     }
 
     template<typename T>

@@ -148,17 +148,16 @@ void writeVtk(const Mesh& mesh, const std::string& name, OutputFile& file)
     out << "POINT_DATA " << vertices << "\n";
     if (!mesh.normals.empty()) out << "NORMALS normal float\n";
     putVectors(out, "", mesh.normals);
-    for (std::size_t s = 0; s < mesh.scalars.size(); ++s) {
-        const std::string vector = vectorAt(mesh, s);
-        if (vector.empty()) {
-            putNumbers(mesh.scalars[s].name + " float", mesh.scalars[s].values);
+    for (const VertexField& field : vertexFields(mesh)) {
+        if (field.count == 1) {
+            putNumbers(field.name + " float", field.components->values);
             continue;
         }
-        out << "VECTORS " << vector << " float\n";
+        const Attribute<float>* along = field.components;
+        out << "VECTORS " << field.name << " float\n";
         for (std::size_t v = 0; v < vertices; ++v)
-            out << mesh.scalars[s].values[v] << " " << mesh.scalars[s + 1].values[v] << " "
-                << mesh.scalars[s + 2].values[v] << "\n";
-        s += 2;
+            out << along[0].values[v] << " " << along[1].values[v] << " " << along[2].values[v]
+                << "\n";
     }
     for (const auto& label : mesh.labels) putNumbers(label.name + " int", label.values);
     if (!mesh.colors.empty()) out << "COLOR_SCALARS color 3\n";

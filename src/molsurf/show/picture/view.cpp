@@ -176,14 +176,19 @@ openvdb::BBoxd seenBox(const std::vector<Vec3d>& points, const std::array<Vec3d,
     return box;
 }
 
+/// The point that is seen at a place.
+Vec3d pointAt(const Vec3d& seen, const std::array<Vec3d, 3>& axes)
+{
+    return seen[0] * axes[0] + seen[1] * axes[1] + seen[2] * axes[2];
+}
+
 /// The square frame that DrawOptions::zoom asks for.
 PictureFrame zoomFrame(const std::array<Vec3d, 3>& axes, const DrawOptions& options)
 {
     constexpr double filled = 0.8;
     constexpr double least = 4.0; // of a single atom, which has no extent [Å]
     const openvdb::BBoxd box = seenBox(options.zoom, axes);
-    const Vec3d mid = box.getCenter(), extent = box.extents();
-    const Vec3d center = mid[0] * axes[0] + mid[1] * axes[1] + mid[2] * axes[2];
+    const Vec3d extent = box.extents(), center = pointAt(box.getCenter(), axes);
     double across = extent[0];
     if (options.turn != 0.0 || options.turnable) // the same scale for all turns
         for (const Vec3d& x : options.zoom)
@@ -200,15 +205,14 @@ void keepView(std::size_t count, const std::function<std::vector<Vec3d>(std::siz
     const std::array<Vec3d, 3> axes = axesOf(pointsOf(0), options);
     openvdb::BBoxd box;
     for (std::size_t i = 0; i < count; ++i) box.expand(seenBox(pointsOf(i), axes));
-    const Vec3d mid = box.getCenter(), extent = box.extents() + Vec3d(2.0 * margin);
+    const Vec3d extent = box.extents() + Vec3d(2.0 * margin);
     options.up = axes[1];
     options.toEye = axes[2];
     options.upright = Vec3d(0.0);
     options.turn = 0.0;
-    options.frame =
-        options.zoom.empty()
-            ? frameOf(mid[0] * axes[0] + mid[1] * axes[1] + mid[2] * axes[2], extent[0], extent[1])
-            : zoomFrame(axes, options);
+    options.frame = options.zoom.empty()
+                        ? frameOf(pointAt(box.getCenter(), axes), extent[0], extent[1])
+                        : zoomFrame(axes, options);
     options.zoom.clear(); // lest a cut comes and goes
 }
 
@@ -243,7 +247,7 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
         }
     }
     const Vec3d mid = 0.5 * (low + high), extent = high - low;
-    view.center = mid[0] * view.right + mid[1] * view.up + mid[2] * view.toEye;
+    view.center = pointAt(mid, axes);
     if (options.turn != 0.0 || options.turnable) {
         const auto turnWith = [&](const Vec3d& p) {
             const Vec3d d = p - view.center;
