@@ -427,6 +427,15 @@ CASES = {
          "vdb_molsurf 1crn.pdb --surface ses --voxel 0.1 -j 64 --max-hours 1 -o b.ply"),
         ("--contacts atom", "vdb_molsurf residue.pdb --contacts residue -o a.contacts.csv",
          "vdb_molsurf residue.pdb --contacts atom -o b.contacts.csv")],
+    "surface/file_settings.cpp": [
+        ("-o NAME.density.mrc and NAME.mask.mrc with --pixel-size are what it reads",
+         f"vdb_molsurf 1crn.pdb {FAST} --for relion -o a.mrc",
+         f"vdb_molsurf 1crn.pdb {FAST} --pixel-size 4 -o a.density.mrc -o a.mask.mrc")],
+    "surface/tomogram_map.cpp": [
+        ("42 hold its mask, too", f"vdb_molsurf 1crn.pdb {FAST} --pixel-size 1 --box-size 12 -o a.mask.mrc",
+         f"vdb_molsurf 1crn.pdb {FAST} --pixel-size 1 --box-size 42 -o a.mask.mrc"),
+        ("larger pixels", f"vdb_molsurf 1crn.pdb {FAST} --resolution 50 --pixel-size 0.1 -o a.density.mrc",
+         f"vdb_molsurf 1crn.pdb {FAST} --resolution 50 --pixel-size 5 -o a.density.mrc")],
     "tools/convert.cpp": [
         ("--iso V -o FILE.vdb", f"vdb_molsurf 1crn.pdb {FAST} -o m.mrc; vdb_molsurf convert m.mrc -o a.ply",
          "vdb_molsurf convert m.mrc --iso -0.1 -o l.vdb", "vdb_molsurf convert l.vdb -o a.ply"),
@@ -554,6 +563,8 @@ CASES = {
          f"vdb_molsurf 1d3z.pdb.gz {FAST} --frames 1 --group-by residues:23 --split group -o a.glb"),
         ("--memory 8G in its place", f"vdb_molsurf 1a8o.cif.gz --by-symmetry --assembly 1 {FAST} -o a.vdb",
          f"vdb_molsurf 1a8o.cif.gz --memory 8G --assembly 1 {FAST} -o a.vdb"),
+        ("--pixel-size 4, in Å", f"vdb_molsurf 1crn.pdb {FAST} -o a.density.mrc",
+         f"vdb_molsurf 1crn.pdb {FAST} --pixel-size 4 -o a.density.mrc"),
         ("-o FILE.vdb holds all", "vdb_molsurf 1crn.pdb --group-by residues:23 --split group --voxel 2 -o a.mrc",
          "vdb_molsurf 1crn.pdb --group-by residues:23 --split group --voxel 2 -o a.vdb"),
         ("--group-by copy --color group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 --color copy --group-by chain {FAST} -o a.ply",
