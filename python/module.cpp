@@ -465,6 +465,11 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
             throw Error(ErrorKind::Usage, "table: expected a surface with `pockets`, got none");
         return dictOf(result.report.pockets->table(atoms));
     }
+    if (name == "patches") {
+        if (!result.report.patches)
+            throw Error(ErrorKind::Usage, "table: expected a surface with `patches`, got none");
+        return dictOf(result.report.patches->table(atoms));
+    }
     if (name == "pore") {
         if (!result.report.pore)
             throw Error(ErrorKind::Usage, "table: expected a surface with `pore`, got none");

@@ -139,6 +139,7 @@ struct BallLabels {
     std::vector<std::uint8_t> elementOf;      ///< atomic number; 0: the element is unknown
     std::vector<ResidueClass> residueClassOf; ///< the kind of the ball's residue
     std::optional<BallValues> values;         ///< if there are any
+    std::optional<BallValues> patchValues;    ///< those that patches are of, if there are any
     std::vector<std::string>
         warnings; ///< one line each, as of groups that lost atoms to later ones
     /// Red, green, blue (sRGB) of each chain. If it is empty the library chooses colours of which
@@ -261,6 +262,7 @@ struct LabelOptions {
     std::vector<GroupRule> groups;  ///< groups; the later rule wins
     std::optional<GroupBy> groupBy; ///< makes the groups instead of `groups`
     std::optional<ValueBy> valueBy; ///< the values that ColorBy::Value shows
+    std::optional<ValueBy> patchBy; ///< the values that PatchRule::by Value is about
     Coloring coloring;              ///< how values and curvatures are shown
     std::optional<std::array<std::uint8_t, 3>>
         plainColor;       ///< red, green, blue (sRGB) that all balls get, if it is given

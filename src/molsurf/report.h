@@ -178,7 +178,7 @@ struct Table {
     };
 
     std::string name; ///< "atoms", "residues", "contacts", "interfaces", "pockets",
-                      ///< "pore", "tunnels" or "forces"
+                      ///< "patches", "pore", "tunnels" or "forces"
     std::vector<Column> columns;
 };
 
@@ -312,6 +312,30 @@ struct Report {
         Table table(const BallSet& atoms) const;
     };
 
+    /// The patches, and what was asked for.
+    struct Patches {
+        /// A connected piece of the mesh where a value, linear on each triangle, is beyond a level.
+        struct Patch {
+            double area = 0.0;                            ///< of the triangles there [Å^2]
+            double integral = 0.0;                        ///< of the value over it
+            std::array<double, 3> centre = {};            ///< mean of its points [Å]
+            std::vector<Pockets::Pocket::Lining> parts{}; ///< of its balls, ascending
+        };
+
+        std::string value;       ///< what it is: "hydrophobicity"
+        bool above = true;       ///< whether patches are where it is above the level, or below
+        double level = 0.0;      ///< in the unit of the value
+        std::vector<Patch> list; ///< the largest first
+
+        /// A row for every patch: patch (its number from 1), area, mean and integral_A2 of the
+        /// value, x_A, y_A, z_A (mean of its points), atoms and residue_count (how many have a part
+        /// of it), residues and atom_ids (which), and what was asked for: value, side of the level
+        /// ("above" or "below") and level.
+        /// Without names of the atoms what needs these is empty.
+        /// @param[in] atoms  that they are of
+        Table table(const BallSet& atoms) const;
+    };
+
     /// A way through the molecule. docs/pores.md.
     struct Pore {
         /// The largest ball of a section.
@@ -414,6 +438,7 @@ struct Report {
     int threads = 0;                                     ///< number of threads that the run used
     std::vector<std::string> warnings;                   ///< one line each
     std::optional<Pockets> pockets;                      ///< if they were asked for
+    std::optional<Patches> patches;                      ///< if they were asked for
     std::optional<Pore> pore;                            ///< if it was asked for
     std::optional<Tunnels> tunnels;                      ///< if they were asked for
     std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are

@@ -158,6 +158,8 @@ def surface_options(rng):
         lambda: ["--frames", rng.choice(("all", "1", "1-2", "2-9:3", "1:3"))],
         lambda: ["--frames", "all", "--superpose", rng.choice(("auto", "A", "A/1-3", "["))],
         lambda: ["--pockets", "--show", rng.choice(("pockets=2", "pockets=all", "pockets=0", "pocket1,A"))],
+        lambda: ["--patches", rng.choice(("hydrophobicity>0", "mean-curvature<-0.1", "charge>0", "radius>nan", "depth<", "<1")),
+                 *rng.choice(([], ["--color", "patch"], ["-o", "out.patches.csv"]))],
         lambda: ["--tunnels-from", rng.choice(("A/1-3", "*", "1,2,0", "0,0", "[")), "--tunnel-probe", number(rng, "0.9", "0.3", "2"),
                  "-o", f"out.tunnels.{rng.choice(('csv', 'ply', 'glb', 'pdb', 'cif', 'cxc', 'pml'))}"],
         lambda: ["--frames", "all", "--tunnels-from", rng.choice(("A/1-3", "1,2,0")), "-o", "out.tunnel_frames.csv"],

@@ -310,14 +310,16 @@ OptionGroup resolutionOptions()
 std::vector<ColorBy> storableColors()
 {
     std::vector<ColorBy> colors = completeColors();
-    colors.erase(std::remove(colors.begin(), colors.end(), ColorBy::Pocket), colors.end());
+    for (const ColorBy found : {ColorBy::Pocket, ColorBy::Patch}) // on the atoms
+        colors.erase(std::remove(colors.begin(), colors.end(), found), colors.end());
     return colors;
 }
 
 Values storableColorHelp()
 {
     Values words = colorHelp();
-    words.erase(std::remove(words.begin(), words.end(), nameOf(ColorBy::Pocket)), words.end());
+    for (const ColorBy found : {ColorBy::Pocket, ColorBy::Patch})
+        words.erase(std::remove(words.begin(), words.end(), nameOf(found)), words.end());
     return words;
 }
 
@@ -368,7 +370,7 @@ OptionGroup areaOptions()
                  SettingType::List,
                  "LIST",
                  "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, "
-                 "pockets,\npore, tunnels, forces",
+                 "pockets, patches,\npore, tunnels, forces",
                  "",
                  areaTables()};
     areas.set = [](CommandLine& call, const Values& values) {
@@ -379,8 +381,11 @@ OptionGroup areaOptions()
                            didYouMean(table, areaTables()));
     };
     return {"Areas",
-            {of(wholes, shownIn(Numbers, areas)), shownIn(0, setting("contacts", wholes))},
-            {{"vdb_molsurf 1ubq.pdb -o 1ubq.residues.csv", "accessible area of each residue"},
+            {of(wholes, shownIn(Numbers, areas)), shownIn(0, setting("contacts", wholes)),
+             setting("patches", wholes)},
+            {{"vdb_molsurf 1ubq.pdb --patches \"hydrophobicity>0\" -o 1ubq.patches.csv",
+              "connected hydrophobic parts of the surface"},
+             {"vdb_molsurf 1ubq.pdb -o 1ubq.residues.csv", "accessible area of each residue"},
              {"vdb_molsurf 4hhb.cif.gz -o 4hhb.contacts.csv --contacts chain",
               "contact areas between chains"}}};
 }

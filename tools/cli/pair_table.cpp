@@ -56,12 +56,12 @@ std::vector<Pair> assemblyPairs()
             {"instances",
              Excludes,
              {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
-              "color=radius", "color=potential", "color=pocket", "show=pockets", "pockets", "pore",
-              "tunnels-from"}},
+              "color=radius", "color=potential", "color=pocket", "show=pockets", "pockets",
+              "patches", "pore", "tunnels-from"}},
             {"by-symmetry",
              Excludes,
-             {"pockets", "color=pocket", "show=pockets", "pore", "tunnels-from", "frames",
-              "trajectory", "memory", "dry-run", "center", "color=potential"}},
+             {"pockets", "color=pocket", "show=pockets", "patches", "pore", "tunnels-from",
+              "frames", "trajectory", "memory", "dry-run", "center", "color=potential"}},
             {holds::Content(anyGrids | Volume),
              Excludes,
              {"by-symmetry"},
@@ -102,7 +102,19 @@ std::vector<Pair> areaPairs()
     unit.unless = hasAreasInClosedForm;
     const std::vector<Thing> forces = {{Areas, "forces", ofForces}, {"areas=forces", ofForces}};
     const auto rests = [](const CommandLine& call) { return restsInClosedForm(call.options); };
+    const auto patches = [](const Thing& thing) {
+        return Pair{
+            thing, Needs, {"patches"}, " [hint: --patches 'hydrophobicity>0', for example]"};
+    };
     return {{"instances", Excludes, forces, " [hint: without --instances]"},
+            patches({Areas, "patches"}),
+            patches("areas=patches"),
+            patches("color=patch"),
+            {"patches",
+             IsFor,
+             {{Areas, "patches"}, "areas=patches", "color=patch"},
+             ".patches.csv, --areas patches and --color patch"},
+            {"patches", Excludes, {"split", "surface-of", "memory"}, ": they are of one mesh"},
             areasWithout("coarse", " [hint: a run without --coarse]"),
             areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
             areasWithout("surface-of", " [hint: a run without --surface-of]"),

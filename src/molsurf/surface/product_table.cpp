@@ -13,6 +13,7 @@
 #include "molsurf/show/color/curvature_colors.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/interfaces.h"
+#include "molsurf/surface/patches.h"
 #include "molsurf/surface/pockets.h"
 #include "molsurf/surface/pore.h"
 #include "molsurf/surface/tunnels.h"
@@ -59,6 +60,18 @@ void needOnePrototype(const BallSet& atoms, const Options&)
 {
     if (ofPrototypes(atoms))
         throw Error(ErrorKind::Usage, "`pockets`: expected one surface, and not `instances`");
+}
+
+void needPatches(const BallSet& atoms, const Options& options)
+{
+    if (!options.patches) throw Error(ErrorKind::Usage, "`color` patch: expected `patches` too");
+    if (!atoms.placement.isWhole() || options.ofParts())
+        throw Error(ErrorKind::Usage, "`patches`: expected one surface, and not `split`, "
+                                      "`surfaceOf`, `instances` or `bySymmetry`");
+    const bool ofBalls = options.patches->by == ColorBy::Value;
+    if (ofBalls && !(atoms.labels && atoms.labels->patchValues))
+        throw Error(ErrorKind::Input,
+                    "`patches`: expected values of the atoms, as of LabelOptions::patchBy");
 }
 
 /// The surface that areas are of.
@@ -221,6 +234,10 @@ const std::vector<ProductRow>& productTable()
          [](auto&, auto& o) { return kindOf(o.color).ofCurvature; }, nullptr, makeCurvatureColors},
         {"`color` by value or pocket", WithoutMesh,
          [](auto&, auto& o) { return o.color == ColorBy::Value || o.color == ColorBy::Pocket; }},
+        {"`patches`", InBricks | BySymmetry | InClosedForm | WithoutMesh,
+         [](auto&, auto& o) { return o.patches || o.color == ColorBy::Patch; }, needPatches,
+         [](MadeRun& run) { addPatches(run.atoms, run.options, run.progress, run.result); },
+         costOfPatches},
         {"areas", always, [](auto&, auto& o) { return o.ballAreas || o.contacts || o.interfaces; },
          nullptr, nameAreas},
         {"`interfaces`", InBricks | WithoutMesh, [](auto&, auto& o) { return o.interfaces; },

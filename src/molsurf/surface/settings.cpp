@@ -8,6 +8,7 @@
 #include "molsurf/molecule/selection/groups.h"
 #include "molsurf/molecule/selection/radii.h"
 #include "molsurf/show/color/color_map.h"
+#include "molsurf/show/color/color_table.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/option_row.h"
 #include "molsurf/surface/product_table.h"
@@ -565,6 +566,57 @@ Setting colorSetting()
     return color;
 }
 
+/// The words of values that patches may be of, the curvatures first.
+Values patchWords()
+{
+    Values words;
+    for (const ColorBy by : completeColors())
+        if (kindOf(by).ofCurvature) words.push_back(nameOf(by));
+    words.insert(words.end(), valueWords().begin(), valueWords().begin() + valuesWithoutFile);
+    for (const std::string& start : colorFiles()) words.push_back(start + "FILE");
+    return words;
+}
+
+/// VALUE>LEVEL or VALUE<LEVEL.
+void setPatches(Settings& s, const Values& values)
+{
+    const std::string& text = values.back();
+    const std::size_t side = std::min(text.find_last_of("<>"), text.size());
+    const std::string word = text.substr(0, side), known = lowered(word);
+    Products::PatchRule rule;
+    if (side == text.size() || !parseWhole(text.substr(side + 1), rule.level) ||
+        !std::isfinite(rule.level))
+        wrongValue("patches", "VALUE>NUMBER or VALUE<NUMBER", text, " [hint: hydrophobicity>0]");
+    rule.above = text[side] == '>';
+    s.labels.patchBy = parseValueBy(word, "patches");
+    const Values words = patchWords();
+    for (const ColorBy by : completeColors())
+        if (kindOf(by).ofCurvature && known == nameOf(by)) rule.by = by;
+    if (rule.by == ColorBy::Value && !s.labels.patchBy)
+        wrongValue("patches", joinWords(words, ", ") + ", and > or < with a number", text,
+                   didYouMean(known, words));
+    s.options.patches = rule;
+}
+
+Setting patchSetting()
+{
+    Setting row{"patches", SettingType::Text, "VALUE>T",
+                "connected pieces of the surface where a value of `color`,\n"
+                "as hydrophobicity or mean-curvature, is above T, or by <\n"
+                "below it: for .patches.csv and `color` patch",
+                "none"};
+    row.set = setPatches;
+    row.get = [](const Settings& s) -> std::string {
+        const std::optional<Products::PatchRule>& rule = s.options.patches;
+        if (!rule) return "none";
+        return (s.labels.patchBy ? textOf(*s.labels.patchBy) : nameOf(rule->by)) +
+               (rule->above ? ">" : "<") + shortest(rule->level);
+    };
+    for (const std::string& word : patchWords()) row.words.push_back(word + ">");
+    row.of = SettingOf::Molecule;
+    return row;
+}
+
 void setRange(Settings& s, const Values& values)
 {
     const std::string expected = "two numbers LOW,HIGH, the first one less";
@@ -686,11 +738,14 @@ std::vector<Setting> groupSettings()
     };
     groupBy.words = {"chain", "entity", "class", "copy"};
     groupBy.of = SettingOf::Molecule;
-    return {groupBy, split, surfaceOf,
+    return {groupBy,
+            split,
+            surfaceOf,
             with(flag("interfaces", "buried areas between groups, for the report",
                       MOLSURF_OF(options.interfaces)),
                  [](Setting& row) { row.get = nullptr; }),
-            colorSetting()};
+            colorSetting(),
+            patchSetting()};
 }
 
 std::vector<Setting> pocketSettings()

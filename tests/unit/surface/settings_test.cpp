@@ -50,6 +50,7 @@ std::string exampleOf(const Setting& setting)
            : name == "surface-of" ? "core=ses"
            : name == "color"      ? "element"
            : name == "range"      ? "1,2"
+           : name == "patches"    ? "mean-curvature<-0.1"
                                   : "chain";
 }
 

@@ -48,6 +48,8 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     labels.residueClassOf = gather(all.residueClassOf, which);
     labels.values = all.values;
     if (labels.values) labels.values->valueOf = gather(all.values->valueOf, which);
+    labels.patchValues = all.patchValues;
+    if (labels.patchValues) labels.patchValues->valueOf = gather(all.patchValues->valueOf, which);
     if (counted == Counted::Subset) countBalls(out, labels.groupOf, labels.groups);
     return out;
 }

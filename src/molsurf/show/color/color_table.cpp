@@ -292,10 +292,10 @@ ColorKind byCurvature(ColorBy by, const char* word, const char* title, const cha
     return kind;
 }
 
-/// The pockets that vertices are the walls of, which addPockets() labels.
-ColorKind byPocket()
+/// A row of colours whose names and places the mesh has as a label.
+ColorKind byLabelOfMesh(ColorBy by, const char* word, const char* title)
 {
-    ColorKind kind{ColorBy::Pocket, "pocket", "Pocket", "pocket"};
+    ColorKind kind{by, word, title, word};
     kind.describe = [](const BallSet&, const Mesh& mesh, const Progress&, Legend& legend) {
         for (const auto& label : mesh.labels) {
             if (label.name != legend.attribute || mesh.colors.empty()) continue;
@@ -361,7 +361,8 @@ const std::vector<ColorKind>& colorTable()
                     "1/Å"),
         byCurvature(ColorBy::GaussianCurvature, "gaussian-curvature", "Gaussian curvature",
                     "gaussian_curvature", "1/Å²"),
-        byPocket(),
+        byLabelOfMesh(ColorBy::Pocket, "pocket", "Pocket"), // by addPockets()
+        byLabelOfMesh(ColorBy::Patch, "patch", "Patch"),    // by addPatches()
         plain(),
         byValue()};
     return all;
