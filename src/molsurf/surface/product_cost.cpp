@@ -50,12 +50,12 @@ constexpr double secondsOfTunnels = 1.2e-4, bytesOfTunnels = 4.3e3; // a ball
 constexpr double secondsPerArea = 3e-6, bytesPerArea = 300.0;
 constexpr double secondsPerContact = 3.2e-5, bytesPerContact = 3.0e3;
 constexpr double secondsPerDepth = 2e-5, bytesPerDepth = 900.0;
-// measured: build --interfaces of 4AT1, 1AOI, both kinds in closed form, and 400 and 2,500 chains
-// of one bead
+// measured: build --interfaces of 4AT1, 1AOI, both kinds in closed form, and 400 to 20,000
+// chains of one bead
 constexpr double secondsPerAlone = 1.5e-5;                          // a ball
 constexpr double secondsPerFacing = 1.2e-4, bytesPerFacing = 1.4e4; // a ball of a pair of groups
-constexpr double secondsPerSphere = 3e-5;                           // one that stands apart
-constexpr double bytesPerPair = 1.1e3;                              // of groups, its rows
+constexpr double secondsPerSphere = 1.2e-5;                         // that is its group
+constexpr double bytesPerPair = 1.35e3;                             // of groups, its rows
 
 // measured: build --remesh of 1CRN and 4AT1 on voxels of 0.5 and 1 Å, 0.12 to 2 Å, and --adapt
 constexpr double secondsPerMeshed = 1.4e-6;                             // voxel of the mesh before
@@ -93,33 +93,25 @@ Cost perBall(const SurfaceSize& size, double seconds, double bytes)
 
 /// How many balls face other groups that bury some of their own, each counted for every such group.
 struct Facings {
-    double all = 0.0, spheres = 0.0; ///< spheres: those of balls that stand apart in their groups
+    double all = 0.0, spheres = 0.0; ///< spheres: those of groups of one ball
     double ofPair = 0.0;             ///< of the two groups that have most
     double pairs = 0.0;              ///< of groups
 };
 
-/// The groups that a ball faces.
-struct Faced {
-    std::map<std::int32_t, double> gaps; ///< how wide they are [Å]
-    bool standsApart = true;             ///< it touches no ball of its own group with a probe
-};
-
-Faced facedBy(const BallSet& atoms, std::size_t i, const BallIndex& index)
+/// The groups that a ball faces, and how wide the gaps to them are [Å].
+std::map<std::int32_t, double> facedBy(const BallSet& atoms, std::size_t i, const BallIndex& index)
 {
-    constexpr double apart = 3.4; // two probes of fits [Å]
     const std::vector<std::int32_t>& groups = atoms.labels->groupOf;
     const Ball& ball = atoms.balls[i];
-    Faced out;
+    std::map<std::int32_t, double> out;
     index.forEachNear(
         ball.center, ball.center, ball.radius + fitReach, [&](const Ball& other, std::int32_t j) {
             const std::int32_t group = groups[std::size_t(j)];
+            if (group < 0 || group == groups[i]) return;
             const double gap = (other.center - ball.center).length() - ball.radius - other.radius;
-            if (group == groups[i]) {
-                out.standsApart = out.standsApart && (std::size_t(j) == i || gap >= apart);
-            } else if (group >= 0 && gap < fitReach) {
-                double& least = out.gaps.emplace(group, gap).first->second;
-                least = std::min(least, gap);
-            }
+            if (gap >= fitReach) return;
+            double& least = out.emplace(group, gap).first->second;
+            least = std::min(least, gap);
         });
     return out;
 }
@@ -136,14 +128,17 @@ Facings facingsOf(const BallSet& atoms, const SurfaceSpec& spec)
     const std::vector<std::int32_t>& groups = atoms.labels->groupOf;
     const BallIndex index(atoms.balls, {0.5, 0.0, 4.0});
     const std::size_t step = std::max<std::size_t>(groups.size() / sampled, 1);
+    std::vector<std::size_t> members(atoms.labels->groups.size());
+    for (const std::int32_t group : groups)
+        if (group >= 0) ++members[std::size_t(group)];
     std::map<std::pair<std::int32_t, std::int32_t>, Pair> pairs;
     for (std::size_t i = 0; i < groups.size(); i += step) {
         if (groups[i] < 0) continue;
-        const Faced faced = facedBy(atoms, i, index);
-        for (const auto& [other, gap] : faced.gaps) {
+        const bool isSphere = members[std::size_t(groups[i])] == 1;
+        for (const auto& [other, gap] : facedBy(atoms, i, index)) {
             Pair& pair = pairs[std::minmax(groups[i], other)];
             pair.faces += double(step);
-            pair.spheres += faced.standsApart ? double(step) : 0.0;
+            pair.spheres += isSphere ? double(step) : 0.0;
             pair.buries = pair.buries || gap < 2.0 * probeOf(spec);
         }
     }

@@ -65,7 +65,7 @@ TEST(Fit, OfTwoBallsIsThatOfTheMiddleCircle)
 TEST(Fit, OfWhatHardlyTouchesIsUnknown)
 {
     const Ball one{Vec3d(0.0), 1.7, 0};
-    const auto touching = fitOf({one}, {{Vec3d(0.0, 0.0, 4.0), 1.7, 1}});
+    const auto touching = fitOf({one}, {{Vec3d(0.0, 0.0, 4.2), 1.7, 1}});
     EXPECT_TRUE(std::isnan(touching.shape));
     EXPECT_TRUE(std::isnan(touching.distance));
     EXPECT_GT(touching.gapVolume, 1.0);
@@ -75,57 +75,35 @@ TEST(Fit, OfWhatHardlyTouchesIsUnknown)
     EXPECT_EQ(apart.gapVolume, 0.0);
 }
 
-// Balls that touch far away make arcs, so that points are found by the search that is for all
-// surfaces, and not by that for spheres.
-TEST(Fit, OfSpheresIsThatOfTheSameBallsInALargerGroup)
+// A far ball makes the group one of two, so that its points are sampled: 30 points in an Å^2.
+TEST(Fit, OfTwoSpheresIsThatOfSampledPoints)
 {
-    const std::vector<Ball> beads = {{Vec3d(0.1, 0.2, 0.3), 2.64, 0},
-                                     {Vec3d(-1.0, 10.0, 0.0), 2.1, 1}};
-    const std::vector<Ball> others = {{Vec3d(3.1, 1.0, -0.4), 2.64, 2},
-                                      {Vec3d(-2.0, 3.6, 2.2), 1.9, 3},
-                                      {Vec3d(0.5, 9.0, 4.8), 2.64, 4}};
-    std::vector<Ball> more = beads;
-    more.push_back({Vec3d(60.0, 0.0, 0.0), 1.5, 5});
-    more.push_back({Vec3d(61.0, 0.0, 0.0), 1.5, 6});
-    const auto spheres = fitOf(beads, others), all = fitOf(more, others);
-    EXPECT_NEAR(spheres.shape, all.shape, 1e-9);
-    EXPECT_NEAR(spheres.distance, all.distance, 1e-9);
-    EXPECT_NEAR(spheres.gapVolume, all.gapVolume, 1e-6);
-    EXPECT_NEAR(spheres.gapIndex, all.gapIndex, 1e-6);
-}
-
-TEST(Fit, PointsOfASphereAreErodedByWhatIsNear)
-{
-    const double radius = 2.0, chord = 0.4;
-    ExcludedSampler sampler(1.4, 10.0);
-    const auto& spread = sampler.spreadOver(radius);
-    SpherePoints points(spread, chord);
-    const Vec3d way(0.3, -0.5, 0.9), other(-1.0, 0.2, 0.1);
-    SpherePoints::Set set = points.none();
-    points.addCap(way, 0.35, set);
-    points.addCap(other, 0.6, set);
-    std::vector<char> isIn, isDeep;
-    for (const Vec3d& u : spread.directions)
-        isIn.push_back(u.dot(way) > 0.35 || u.dot(other) > 0.6);
-    for (std::size_t i = 0; i < isIn.size(); ++i) {
-        bool deep = isIn[i];
-        for (std::size_t k = 0; k < isIn.size(); ++k)
-            if (!isIn[k] && (spread.directions[i] - spread.directions[k]).length() < chord)
-                deep = false;
-        isDeep.push_back(deep);
-    }
-    const auto marked = [&](const SpherePoints::Set& some) {
-        std::vector<char> out(isIn.size(), 0);
-        SpherePoints::forEach(some, [&](std::size_t k) { out[k] = 1; });
-        return out;
+    const auto check = [](double a, double b, double apart) {
+        const std::vector<Ball> one = {{Vec3d(0.1, 0.2, 0.3), a, 0}};
+        const Vec3d way(2.0, -1.0, 0.5);
+        std::vector<Ball> other = {{one[0].center + apart * way.unit(), b, 1}};
+        const auto exact = fitOf(one, other), swapped = fitOf(other, one);
+        other.push_back({Vec3d(60.0, 0.0, 0.0), 1.5, 2});
+        const auto sampled = fitOf(one, other);
+        EXPECT_EQ(exact.shape, swapped.shape) << apart;
+        EXPECT_EQ(exact.distance, swapped.distance) << apart;
+        EXPECT_NEAR(exact.shape, sampled.shape, 0.03) << a << " " << b << " " << apart;
+        EXPECT_NEAR(exact.distance, sampled.distance, 0.03 * std::max(exact.distance, 1.0))
+            << a << " " << b << " " << apart;
+        EXPECT_NEAR(exact.gapVolume, sampled.gapVolume, 1e-6);
+        EXPECT_NEAR(exact.gapIndex, sampled.gapIndex, 0.02 * std::abs(sampled.gapIndex));
     };
-    EXPECT_EQ(marked(set), isIn);
-    EXPECT_EQ(marked(points.eroded(set)), isDeep);
-    EXPECT_EQ(marked(points.eroded(set)), isDeep) << "once more, as the near points are known";
-    const auto count = std::size_t(std::count(isIn.begin(), isIn.end(), 1));
-    EXPECT_EQ(SpherePoints::count(set), count);
-    EXPECT_GT(count, 100u);
-    EXPECT_GT(std::count(isDeep.begin(), isDeep.end(), 1), 10);
+    check(2.64, 2.64, 3.0); // overlapping
+    check(2.64, 2.64, 5.3); // hardly touching
+    check(2.64, 1.9, 3.6);
+    check(8.0, 1.7, 7.0); // the centre of the small one is inside of the large one
+    check(8.0, 7.0, 1.5); // more than a hemisphere of the smaller one
+    check(25.0, 20.0, 45.6);
+    const auto swallowed = fitOf({{Vec3d(0.0), 6.0, 0}}, {{Vec3d(0.0, 2.0, 0.0), 1.0, 1}});
+    EXPECT_TRUE(std::isnan(swallowed.shape));
+    const double own = -4.0 / 3.0 * M_PI; // its volume is counted twice
+    EXPECT_NEAR(swallowed.gapVolume, own, 1e-6);
+    EXPECT_NEAR(swallowed.gapIndex, own / (2.0 * M_PI), 1e-6);
 }
 
 // Sc of arpeggia 0.10.1 for these radii: 0.774.

@@ -8,6 +8,7 @@
 #include "molsurf/kernel/pipeline/closed_form.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -15,6 +16,7 @@
 namespace molsurf
 {
 
+using openvdb::Vec2d;
 using openvdb::Vec3d;
 
 namespace
@@ -183,16 +185,27 @@ ExcludedPoints withoutRim(const ExcludedPoints& buried, const PointRuns& open,
     return out;
 }
 
-/// The weighted median: the least value that, with those below it, has half of the weight.
+/// The weighted median: the least value that, with those below it, has half of the weight. Halves
+/// the values until one is left, as quickselect does.
 /// @param[in] values  with their weights, at least one
 double medianOf(std::vector<std::pair<double, double>> values)
 {
-    std::sort(values.begin(), values.end());
-    double half = 0.0;
-    for (const auto& [value, weight] : values) half += 0.5 * weight;
-    for (const auto& [value, weight] : values)
-        if ((half -= weight) <= 0.0) return value;
-    return values.back().first;
+    double left = 0.0; // of the weight that the median has to reach
+    for (const auto& [value, weight] : values) left += 0.5 * weight;
+    auto begin = values.begin(), end = values.end();
+    while (end - begin > 1) {
+        const auto middle = begin + (end - begin) / 2;
+        std::nth_element(begin, middle, end);
+        double below = 0.0;
+        for (auto value = begin; value != middle; ++value) below += value->second;
+        if (below >= left) {
+            end = middle;
+        } else {
+            left -= below;
+            begin = middle;
+        }
+    }
+    return begin->first;
 }
 
 /// Of each point the number of the nearest among others.
@@ -233,15 +246,76 @@ std::pair<double, double> mediansOf(const ExcludedPoints& points, const Excluded
     return {medianOf(std::move(shapes)), medianOf(std::move(distances))};
 }
 
-/// Whether the balls of a group touch each other with no probe, so that their surfaces are spheres
-/// more than two probes apart, which is more than the width of a rim; and whether these are so
-/// small that looking through all points for those near one takes no time.
-bool areSmallSpheres(const BallBoundary& boundary)
+/// What one of two balls buries of the other's sphere: a cap about the way between their centres.
+struct BuriedCap {
+    double radius;  ///< of the sphere [Å]
+    double cosine;  ///< of the angle at which it ends; 1: nothing is buried
+    double trimmed; ///< angle at which it ends without the rim
+};
+
+BuriedCap buriedCap(double radius, double other, double apart)
 {
-    constexpr double largest = 8.0; // radius [Å]
-    return boundary.arcs.empty() &&
-           std::all_of(boundary.patches.begin(), boundary.patches.end(),
-                       [](const Patch& patch) { return patch.radius - fitProbe <= largest; });
+    // The probe at R u from the centre is nearer than `reach` to the other ball where u.way > most.
+    const double R = radius + fitProbe, reach = other + fitProbe - touching;
+    const double most = (R * R + apart * apart - reach * reach) / (2.0 * R);
+    if (most >= apart) return {radius, 1.0, 0.0};
+    if (most <= -apart) return {radius, -1.0, M_PI}; // without an end, thus without a rim
+    const double end = std::acos(most / apart);
+    const double rim = 2.0 * std::asin(std::min(0.5 * rimWidth / radius, 1.0));
+    return {radius, most / apart, std::max(end - rim, 0.0)};
+}
+
+/// The mean of the two values in the middle.
+template<std::size_t size>
+double middleOf(std::array<double, size>& values)
+{
+    static_assert(size % 2 == 0);
+    const auto middle = values.begin() + size / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+/// mediansOf() the cap of one ball and that of the other, by rings of equal area.
+std::pair<double, double> mediansOf(const BuriedCap& own, const BuriedCap& other, double apart)
+{
+    constexpr std::size_t rings = 128;
+    std::array<double, rings> shapes, distances;
+    const double step = (1.0 - std::cos(own.trimmed)) / double(rings);
+    const Vec2d end(std::sin(other.trimmed), std::cos(other.trimmed));
+    for (std::size_t k = 0; k < rings; ++k) {
+        // In the half plane of the point, the axis leading from the other's centre to this one.
+        const double u = 1.0 - (double(k) + 0.5) * step;
+        const Vec2d normal(std::sqrt((1.0 - u) * (1.0 + u)), -u);
+        const Vec2d x(own.radius * normal.x(), apart + own.radius * normal.y());
+        const double length = x.length();
+        Vec2d nearest = length > 0.0 ? x / length : end; // a normal of the other sphere
+        if (nearest.y() < end.y()) nearest = end;
+        const double square = (x - other.radius * nearest).lengthSqr();
+        shapes[k] = -normal.dot(nearest) * std::exp(-decay * square);
+        distances[k] = std::sqrt(square);
+    }
+    return {middleOf(shapes), middleOf(distances)};
+}
+
+void setMeans(const std::pair<double, double>& a, const std::pair<double, double>& b,
+              Report::Interface::Fit& fit)
+{
+    fit.shape = 0.5 * (a.first + b.first);
+    fit.distance = 0.5 * (a.second + b.second);
+}
+
+/// FitMeasure::sidesOf() two groups of one ball: beads, ions, waters.
+double sidesOfSpheres(const Ball& first, const Ball& second, Report::Interface::Fit& fit)
+{
+    const double apart = (second.center - first.center).length();
+    const BuriedCap a = buriedCap(first.radius, second.radius, apart),
+                    b = buriedCap(second.radius, first.radius, apart);
+    if (a.trimmed > 0.0 && b.trimmed > 0.0)
+        setMeans(mediansOf(a, b, apart), mediansOf(b, a, apart), fit);
+    const auto areaOf = [](const BuriedCap& cap) {
+        return 2.0 * M_PI * cap.radius * cap.radius * (1.0 - cap.cosine);
+    };
+    return 0.5 * (areaOf(a) + areaOf(b));
 }
 
 /// The volume of what no probe reaches [Å^3].
@@ -271,7 +345,6 @@ FitMeasure::FitMeasure() : sampler_(fitProbe, density) {}
 FitMeasure::Side FitMeasure::sideOf(const FitSurface& own, const FitSurface& other,
                                     const Progress& progress)
 {
-    if (areSmallSpheres(own.boundary())) return sideOfSpheres(own, other);
     // A probe that a ball of radius R blocks is within R + fitProbe of it, its point within
     // fitProbe of the probe, and the points of its rim within rimWidth of that.
     const auto counts = [&](const Vec3d& centre, double radius) {
@@ -298,40 +371,16 @@ FitMeasure::Side FitMeasure::sideOf(const FitSurface& own, const FitSurface& oth
     return side;
 }
 
-/// The same of areSmallSpheres(): all that is near a point lies on its own sphere.
-FitMeasure::Side FitMeasure::sideOfSpheres(const FitSurface& own, const FitSurface& other)
+double FitMeasure::sidesOf(const FitSurface& first, const FitSurface& second,
+                           const Progress& progress, Report::Interface::Fit& fit)
 {
-    Side side;
-    for (const Patch& patch : own.boundary().patches) {
-        const double R = patch.radius, r = R - fitProbe;
-        SpherePoints& points = pointsOf(r);
-        SpherePoints::Set buried = points.none();
-        other.index().forEachNear(
-            patch.centre, patch.centre, R + fitProbe, [&](const Ball& ball, std::int32_t) {
-                // The probe at R u from the centre is nearer than `reach` to the ball.
-                const Vec3d way = ball.center - patch.centre;
-                const double reach = ball.radius + fitProbe - touching;
-                points.addCap(way, (way.lengthSqr() + R * R - reach * reach) / (2.0 * R), buried);
-            });
-        const ExcludedSampler::Spread& spread = sampler_.spreadOver(r);
-        const double area = 4.0 * M_PI * r * r / double(spread.directions.size());
-        side.buriedArea += area * double(points.count(buried));
-        points.forEach(points.eroded(buried), [&](std::size_t k) {
-            const Vec3d& u = spread.directions[k];
-            side.trimmed.push_back({patch.centre + r * u, u, area});
-        });
-    }
-    return side;
-}
-
-SpherePoints& FitMeasure::pointsOf(double radius)
-{
-    constexpr std::size_t most = 16; // that are kept
-    const auto known = points_.find(radius);
-    if (known != points_.end()) return known->second;
-    if (points_.size() >= most) points_.clear();
-    return points_.try_emplace(radius, sampler_.spreadOver(radius), rimWidth / radius)
-        .first->second;
+    if (first.balls().size() == 1 && second.balls().size() == 1)
+        return sidesOfSpheres(first.balls()[0], second.balls()[0], fit);
+    const Side a = sideOf(first, second, progress), b = sideOf(second, first, progress);
+    if (!a.trimmed.empty() && !b.trimmed.empty())
+        setMeans(mediansOf(a.trimmed, b.trimmed, progress),
+                 mediansOf(b.trimmed, a.trimmed, progress), fit);
+    return 0.5 * (a.buriedArea + b.buriedArea);
 }
 
 Report::Interface::Fit FitMeasure::of(const FitSurface& first, const FitSurface& second,
@@ -344,14 +393,8 @@ Report::Interface::Fit FitMeasure::of(const FitSurface& first, const FitSurface&
     // The gap is inside the surface of both together, and outside that of each by itself.
     fit.gapVolume = volumeOf(ballBoundary(both, fitProbe, progress), progress) - first.volume() -
                     second.volume();
-    const Side a = sideOf(first, second, progress), b = sideOf(second, first, progress);
-    const double area = 0.5 * (a.buriedArea + b.buriedArea);
+    const double area = sidesOf(first, second, progress, fit);
     if (area > 0.0) fit.gapIndex = fit.gapVolume / area;
-    if (a.trimmed.empty() || b.trimmed.empty()) return fit;
-    const auto [shapeA, distanceA] = mediansOf(a.trimmed, b.trimmed, progress);
-    const auto [shapeB, distanceB] = mediansOf(b.trimmed, a.trimmed, progress);
-    fit.shape = 0.5 * (shapeA + shapeB);
-    fit.distance = 0.5 * (distanceA + distanceB);
     return fit;
 }
 

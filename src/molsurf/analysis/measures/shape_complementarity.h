@@ -4,14 +4,12 @@
 /// @file
 /// How well the surfaces of two groups of atoms fit each other.
 
-#include "molsurf/analysis/measures/sphere_points.h"
 #include "molsurf/ball.h"
 #include "molsurf/kernel/balls/ball_index.h"
 #include "molsurf/kernel/balls/excluded_points.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 
-#include <map>
 #include <vector>
 
 namespace molsurf
@@ -47,7 +45,6 @@ private:
 /// such point, d Å away; Sc is the mean of both sides' medians.
 /// @see M. C. Lawrence and P. M. Colman, Shape complementarity at protein/protein interfaces, J.
 ///      Mol. Biol. 234:946-950, 1993, doi:10.1006/jmbi.1993.1648
-///
 class FitMeasure
 {
 public:
@@ -67,11 +64,12 @@ private:
     };
 
     Side sideOf(const FitSurface& own, const FitSurface& other, const Progress& progress);
-    Side sideOfSpheres(const FitSurface& own, const FitSurface& other);
-    SpherePoints& pointsOf(double radius);
+    /// Sets shape and distance where both sides have points.
+    /// @return the area that each side buries, their mean [Å^2]
+    double sidesOf(const FitSurface& first, const FitSurface& second, const Progress& progress,
+                   Report::Interface::Fit& fit);
 
     ExcludedSampler sampler_;
-    std::map<double, SpherePoints> points_; // of spheres, by their radii
 };
 
 } // namespace molsurf

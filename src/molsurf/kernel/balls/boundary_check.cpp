@@ -47,21 +47,38 @@ const Directions& directions()
     return table;
 }
 
-/// Clips eight rays from the centre of a sphere of radius 1 by the planes of its caps: finds where
-/// they enter and leave the cell. A ray that misses it leaves before it enters.
-MOLSURF_KERNEL void followRays(const float* ux, const float* uy, const float* uz,
-                               const CapLists& caps, float* from, float* to)
+/// What rays from the centre of a sphere of radius 1 have of its cell.
+struct RayCubes {
+    double sum = 0.0, squares = 0.0; ///< of end^3 - begin^3, where they enter and leave
+};
+
+/// Clips eight rays at a time by the planes of the caps.
+/// @param[in] first  of the directions, a multiple of 8, as is their number
+MOLSURF_KERNEL RayCubes cubesOf(const Directions& u, std::size_t first, std::size_t rays,
+                                const CapLists& caps)
 {
-    const Floats x = load(ux), y = load(uy), z = load(uz);
-    Floats begin = splat(0.0f), end = splat(1.0f);
-    for (std::size_t k = 0; k < std::size_t(caps.size()); ++k) {
-        const Floats along = caps.x[k] * x + caps.y[k] * y + caps.z[k] * z;
-        const Floats at = caps.cosine[k] / along; // beyond the plane where t along > cosine
-        end = smaller(along > 0.0f ? at : splat(2.0f), end);
-        begin = larger(along < 0.0f ? at : splat(-1.0f), begin);
+    Floats sum = splat(0.0f), squares = splat(0.0f); // rounding is far below the rays' own error
+    for (std::size_t r = 0; r < rays; r += bundle) {
+        const std::size_t d = (first + r) % Directions::count;
+        const Floats x = load(&u.x[d]), y = load(&u.y[d]), z = load(&u.z[d]);
+        Floats begin = splat(0.0f), end = splat(1.0f);
+        for (std::size_t k = 0; k < std::size_t(caps.size()); ++k) {
+            const Floats along = caps.x[k] * x + caps.y[k] * y + caps.z[k] * z;
+            const Floats at = caps.cosine[k] / along; // beyond the plane where t along > cosine
+            end = smaller(along > 0.0f ? at : splat(2.0f), end);
+            begin = larger(along < 0.0f ? at : splat(-1.0f), begin);
+        }
+        end = larger(begin, end); // a ray that misses the cell leaves before it enters
+        const Floats cubes = end * end * end - begin * begin * begin;
+        sum += cubes;
+        squares += cubes * cubes;
     }
-    store(from, begin);
-    store(to, end);
+    RayCubes out;
+    for (int k = 0; k < floatLanes; ++k) {
+        out.sum += double(sum[k]);
+        out.squares += double(squares[k]);
+    }
+    return out;
 }
 
 /// Counts the directions among eight that no cap of a range holds.
@@ -120,21 +137,9 @@ CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std:
 {
     const double ball = 4.0 / 3.0 * M_PI * radius * radius * radius, n = double(rays);
     if (caps.size() == 0) return {ball, 0.0};
-    const Directions& u = directions();
-    double sum = 0.0, squares = 0.0;
-    for (std::size_t k = 0; k < rays; k += bundle) {
-        const std::size_t at = (std::size_t(i) * rays + k) % Directions::count;
-        float from[bundle], to[bundle];
-        followRays(&u.x[at], &u.y[at], &u.z[at], caps.rounded, from, to);
-        for (std::size_t d = 0; d < bundle; ++d) {
-            const double begin = from[d], end = std::max(from[d], to[d]); // a ray that misses: 0
-            const double cubes = end * end * end - begin * begin * begin;
-            sum += cubes;
-            squares += cubes * cubes;
-        }
-    }
-    const double mean = sum / n;
-    return {ball * mean, ball * ball * std::max(squares / n - mean * mean, 0.0) / n};
+    const RayCubes cubes = cubesOf(directions(), std::size_t(i) * rays, rays, caps.rounded);
+    const double mean = cubes.sum / n;
+    return {ball * mean, ball * ball * std::max(cubes.squares / n - mean * mean, 0.0) / n};
 }
 
 void checkBoundary(const BallBoundary& boundary, const BoundaryMeasure& measure,
