@@ -70,10 +70,13 @@ struct Products : KernelProducts {
     bool pockets = false;              ///< whether the report has pockets
     PocketRule pocket;                 ///< which
     std::optional<PatchRule> patches;  ///< which patches the report has; none: it has none
-    bool pocketBodies = false;         ///< whether MolecularSurface::pocketBodies is made
-    SearchPlaces places;               ///< where pockets, a pore and tunnels are searched for
-    double tunnelProbe = 0.9; ///< tunnels are as wide as this at least, in [0.3, 10] [Å]; they
-                              ///< end where a ball of PocketRule::probeOut gets
+    /// Radius within which vertices get the mean of the values that colours show and patches are
+    /// of, in [0.5, 20] [Å]; 0: they have their own.
+    double smoothColors = 0.0;
+    bool pocketBodies = false; ///< whether MolecularSurface::pocketBodies is made
+    SearchPlaces places;       ///< where pockets, a pore and tunnels are searched for
+    double tunnelProbe = 0.9;  ///< tunnels are as wide as this at least, in [0.3, 10] [Å]; they
+                               ///< end where a ball of PocketRule::probeOut gets
     /// The kind of surface that ballAreas, contacts and interfaces are of; none: that of `kind`.
     std::optional<SurfaceKind> areasOf;
     /// Whether there is a grid and a mesh of it. Without them the result has what is known in

@@ -160,6 +160,8 @@ def surface_options(rng):
         lambda: ["--pockets", "--show", rng.choice(("pockets=2", "pockets=all", "pockets=0", "pocket1,A"))],
         lambda: ["--patches", rng.choice(("hydrophobicity>0", "mean-curvature<-0.1", "charge>0", "radius>nan", "depth<", "<1")),
                  *rng.choice(([], ["--color", "patch"], ["-o", "out.patches.csv"]))],
+        lambda: ["--smooth-colors", number(rng, "0.5", "2", "5", "20"), "--color", rng.choice(("mean-curvature", "bfactor", "plddt")),
+                 *rng.choice(([], ["--patches", "mean-curvature>0"], ["--flat-values"], ["--fields", "Cd"]))],
         lambda: ["--tunnels-from", rng.choice(("A/1-3", "*", "1,2,0", "0,0", "[")), "--tunnel-probe", number(rng, "0.9", "0.3", "2"),
                  "-o", f"out.tunnels.{rng.choice(('csv', 'ply', 'glb', 'pdb', 'cif', 'cxc', 'pml'))}"],
         lambda: ["--frames", "all", "--tunnels-from", rng.choice(("A/1-3", "1,2,0")), "-o", "out.tunnel_frames.csv"],

@@ -337,8 +337,9 @@ OptionGroup colorOptions()
     return {"Colours",
             {setting("color", surfaces), of(Convert, shown), setting("range", surfaces | Convert),
              setting("palette", surfaces | Convert), setting("value-of", surfaces),
-             setting("flat-values", surfaces), setting("potential-offset", surfaces),
-             setting("plain-color", wholes | Convert), setting("sharp-colors", Build)},
+             setting("flat-values", surfaces), setting("smooth-colors", wholes),
+             setting("potential-offset", surfaces), setting("plain-color", wholes | Convert),
+             setting("sharp-colors", Build)},
             {{"vdb_molsurf 4hhb.cif.gz --color chain -o chains.png", "a colour for each chain"},
              {"vdb_molsurf 1ubq.pdb --color bfactor --range 0,40 -o b.glb",
               "B factors from 0 to 40 Å^2"}}};

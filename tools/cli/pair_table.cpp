@@ -189,6 +189,9 @@ std::vector<Pair> surfacePairs()
                        (call.verb == Convert && by == ColorBy::Nothing);
             }};
     };
+    Pair smooth = ofValues("smooth-colors");
+    smooth.others = {"patches"};
+    smooth.why = "--color by a value or a curvature, and --patches";
     const auto ofAtomValues = [](const CommandLine& call) {
         return call.labels.valueBy && !call.labels.valueBy->byPoint();
     };
@@ -218,6 +221,15 @@ std::vector<Pair> surfacePairs()
             {"show-behind", IsFor, {"opacity"}},
             ofValues("range"),
             ofValues("palette"),
+            smooth,
+            {"smooth-colors",
+             Excludes,
+             {"flat-values", "fields=cd", "fields=value"},
+             ": means over the surface are at vertices"},
+            {"smooth-colors",
+             Excludes,
+             {"split", "surface-of", "instances", "by-symmetry", "memory"},
+             ": they are of one mesh"},
             {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
             {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
             {"potential-offset", IsFor, {"color=potential"}},

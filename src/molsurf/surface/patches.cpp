@@ -2,6 +2,7 @@
 #include "molsurf/surface/patches.h"
 
 #include "molsurf/analysis/measures/patches.h"
+#include "molsurf/analysis/measures/smooth_values.h"
 #include "molsurf/kernel/balls/nearest_ball.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/pipeline/influence.h"
@@ -27,13 +28,19 @@ std::vector<float> patchValues(const BallSet& atoms, const SurfaceOptions& optio
                                const Mesh& mesh)
 {
     const ColorKind& kind = kindOf(options.patches->by);
-    for (const Attribute<float>& scalar : mesh.scalars)
-        if (kind.ofCurvature && scalar.name == kind.attribute) return scalar.values;
-    const BallValues& values = *atoms.labels->patchValues;
-    const PointValues points(atoms.balls, values, outwardOf(atoms.coloring, options));
     std::vector<float> out;
-    for (const PointValue& value : vertexValues(points, values, nearest, reach, progress, mesh))
-        out.push_back(value.known());
+    if (kind.ofCurvature) {
+        for (const Attribute<float>& scalar : mesh.scalars)
+            if (scalar.name == kind.attribute) out = scalar.values;
+    } else {
+        const BallValues& values = *atoms.labels->patchValues;
+        const PointValues points(atoms.balls, values, outwardOf(atoms.coloring, options));
+        for (const PointValue& value : vertexValues(points, values, nearest, reach, progress, mesh))
+            out.push_back(value.known());
+    }
+    const bool isSmooth = kind.ofCurvature && kind.by == options.color; // by labelSurface()
+    if (options.smoothColors > 0.0 && !isSmooth)
+        smoothValues(mesh, options.smoothColors, progress, out);
     return out;
 }
 

@@ -698,6 +698,10 @@ std::vector<Setting> coloringSettings()
              MOLSURF_OF(labels.coloring.flat)),
         offset};
     for (Setting& row : rows) row.of = SettingOf::Molecule;
+    rows.push_back(optionalNumber("smooth-colors", "D",
+                                  "vertices have the mean of values and curvatures over the\n"
+                                  "surface within D [Å], for colours and patches",
+                                  "0.5 to 20 Å", {0.5, 20.0}, MOLSURF_OF(options.smoothColors)));
     return rows;
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
-// Patches: parts of triangles by sampling, and caps of a ball by Archimedes' formula.
+// Patches: parts of triangles by sampling, and caps of a ball by Archimedes' formula. Means of
+// values over caps.
 #include "molsurf/analysis/measures/patches.h"
+
+#include "molsurf/analysis/measures/smooth_values.h"
 
 #include "molsurf/error.h"
 #include "molsurf/surface.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -128,6 +132,69 @@ TEST(Patches, EndWhereThereIsNoValue)
         EXPECT_NEAR(cap.integral, cap.area, 1e-9);
     }
     EXPECT_TRUE(found(mesh, values, 0.0, false).list.empty());
+}
+
+// A cap of a chord D has the height h = D^2 / 2R, and its mean height is R - h/2 from the centre.
+TEST(SmoothValues, AreMeansOfCaps)
+{
+    const Mesh mesh = ballMesh(openvdb::Vec3d(0.0));
+    for (const double within : {1.0, 2.0, 4.0}) {
+        auto values = valuesOf(mesh, [](const auto& x) { return x[2]; });
+        smoothValues(mesh, within, Progress(), values);
+        const double share = 1.0 - within * within / (4.0 * radius * radius);
+        for (std::size_t v = 0; v < values.size(); ++v)
+            ASSERT_NEAR(values[v], share * double(mesh.positions[v][2]), 0.16 / within) << within;
+    }
+}
+
+TEST(SmoothValues, StayOnTheirPieceAndWhereThereAreSome)
+{
+    Mesh mesh = ballMesh(openvdb::Vec3d(0.0));
+    const Mesh other = ballMesh({2.0 * radius + 0.2, 0.0, 0.0});
+    const auto first = std::uint32_t(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+    for (auto t : other.triangles)
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    std::vector<float> values(first, 1.0f);
+    values.resize(mesh.positions.size(), 3.0f);
+    values[7] = std::numeric_limits<float>::quiet_NaN();
+    smoothValues(mesh, 3.0, Progress(), values);
+    for (std::size_t v = 0; v < values.size(); ++v) {
+        if (v == 7)
+            EXPECT_TRUE(std::isnan(values[v]));
+        else
+            ASSERT_FLOAT_EQ(values[v], v < first ? 1.0f : 3.0f) << v;
+    }
+}
+
+TEST(SmoothValues, AreThoseOfColoursAndPatches)
+{
+    BallSet atoms;
+    atoms.balls = {{openvdb::Vec3d(0.0), 3.0, 0}, {{4.0, 0.0, 0.0}, 2.0, 1}};
+    SurfaceOptions options;
+    options.color = ColorBy::GaussianCurvature;
+    options.patches = {ColorBy::GaussianCurvature, false, 0.0};
+    const MolecularSurface rough = makeSurface(atoms, options);
+    options.smoothColors = 3.0;
+    const MolecularSurface made = makeSurface(atoms, options);
+    const auto range = [](const MolecularSurface& of) {
+        const auto& values = of.mesh.scalars[1].values;
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        return *high - *low;
+    };
+    EXPECT_LT(range(made), 0.6f * range(rough));
+    EXPECT_EQ(made.report.surface.gaussianCurvature.min,
+              rough.report.surface.gaussianCurvature.min);
+    EXPECT_EQ(rough.report.patches->list.size(), 1u);
+    EXPECT_TRUE(made.report.patches->list.empty()); // the neck is narrow
+    options.color = ColorBy::Nothing;
+    EXPECT_TRUE(makeSurface(atoms, options).report.patches->list.empty());
+    options.smoothColors = 0.4;
+    EXPECT_THROW(makeSurface(atoms, options), Error);
+    options.smoothColors = 3.0;
+    options.color = ColorBy::GaussianCurvature;
+    options.fields = {"Cd"};
+    EXPECT_THROW(makeSurface(atoms, options), Error);
 }
 
 TEST(Patches, NeedARuleAndValues)

@@ -111,7 +111,7 @@ TEST(Settings, RangesAreThoseThatAreChecked)
         EXPECT_FALSE(allows(setting, setting.low - beyond)) << setting.name;
         EXPECT_FALSE(allows(setting, setting.high + beyond)) << setting.name;
     }
-    EXPECT_EQ(ranges, 15);
+    EXPECT_EQ(ranges, 16);
 }
 
 TEST(Settings, TakeResolutionsFrom1To50)

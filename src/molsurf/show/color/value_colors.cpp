@@ -172,18 +172,15 @@ std::vector<PointValue> vertexValues(const PointValues& points, const BallValues
     return out;
 }
 
-void addValues(const BallSet& atoms, double outward, const Labels& nearest, double reach,
-               const Progress& progress, Mesh& mesh)
+void addValues(const BallValues& values, const PointValues& points,
+               const std::vector<PointValue>& ofVertices, Mesh& mesh)
 {
-    const BallValues& values = *atoms.labels->values;
     const bool colors = !isFlat(values) || values.byPoint();
-    const PointValues points(atoms.balls, values, outward);
     Attribute<float>& out = mesh.scalars.emplace_back();
     out.name = values.name;
-    std::size_t v = 0;
-    for (const PointValue& value : vertexValues(points, values, nearest, reach, progress, mesh)) {
-        out.values.push_back(value.known());
-        if (colors) mesh.colors[v++] = points.colorOf(value);
+    for (std::size_t v = 0; v < ofVertices.size(); ++v) {
+        out.values.push_back(ofVertices[v].known());
+        if (colors) mesh.colors[v] = points.colorOf(ofVertices[v]);
     }
 }
 

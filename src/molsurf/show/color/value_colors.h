@@ -86,12 +86,11 @@ std::vector<PointValue> vertexValues(const PointValues& points, const BallValues
                                      const Labels& nearest, double reach, const Progress& progress,
                                      const Mesh& mesh);
 
-/// Adds the values to the vertices of a mesh as a scalar, which is not a number where less than
+/// Adds the values of vertices to their mesh as a scalar, which is not a number where less than
 /// half of the weights have one, and colours them by it unless they are flat.
-/// @param[in] outward  as above
-/// @param[in] nearest  ball of each vertex
-void addValues(const BallSet& atoms, double outward, const Labels& nearest, double reach,
-               const Progress& progress, Mesh& mesh);
+/// @param[in] points  made of the same values
+void addValues(const BallValues& values, const PointValues& points,
+               const std::vector<PointValue>& ofVertices, Mesh& mesh);
 
 /// Gives how far outside of the surface a potential is taken [Å]: where the coloring does not say
 /// it, a probe radius, if the surface is not that far from the atoms itself.
