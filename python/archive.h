@@ -212,8 +212,9 @@ MOLSURF_MEMBERS(Group, v.name, v.balls, v.color, v.place)
 MOLSURF_MEMBERS(BallValues, v.name, v.title, v.unit, v.palette, v.low, v.high, v.centre, v.valueOf,
                 v.flat)
 MOLSURF_MEMBERS(Coloring, v.range, v.palette, v.byResidue, v.flat, v.potentialOffset)
-MOLSURF_MEMBERS(BallLabels, v.chainOf, v.chains, v.groupOf, v.groups, v.elementOf, v.residueClassOf,
-                v.values, v.patchValues, v.warnings, v.chainColors, v.chainPlaces)
+MOLSURF_MEMBERS(BallLabels, v.chainOf, v.chains, v.groupOf, v.groups, v.colorGroups, v.colorGroupOf,
+                v.elementOf, v.residueClassOf, v.values, v.patchValues, v.warnings, v.chainColors,
+                v.chainPlaces)
 MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.insertionCode,
                 v.hetatm)
 MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)

@@ -795,7 +795,8 @@ void addFunctions(nb::module_& m)
     m.def("is_of_file", [](const std::string& color) {
         try {
             const Settings s = settingsOf({{"color", {color}}});
-            return s.colorGroups || s.labels.valueBy || s.labels.plainColor;
+            return s.colorGroups || !s.colorGroupsFile.empty() || s.labels.valueBy ||
+                   s.labels.plainColor;
         } catch (const Error&) {
             return false;
         }

@@ -220,7 +220,8 @@ std::vector<StageShare> stagesOf(const SurfaceOptions& options, double drawing)
 /// Refuses interfaces of one group, where the report of one structure would have nothing else.
 void checkGroups(const CommandLine& call, const BallSet& balls)
 {
-    const bool implied = !call.has("groups") && !call.has("group-by") && !call.colorGroups;
+    const bool implied = !call.has("groups") && !call.has("group-by") && !call.colorGroups &&
+                         call.colorGroupsFile.empty();
     if (!call.has("interfaces") || !implied || call.verb != Build || !call.frames.empty() ||
         balls.labels->groups.size() > 1)
         return;

@@ -30,7 +30,8 @@ enum class ColorBy {
     Illustrative, ///< the chain, lighter at carbon
     Hetero,       ///< the chain at carbon, else the element
     Pocket,       ///< the pocket whose wall a point is
-    Patch         ///< the patch that a point is in
+    Patch,        ///< the patch that a point is in
+    FileGroup     ///< the group of BallLabels::colorGroups
 };
 
 /// Products of a surface: its grids, its mesh, and the measures of its report.

@@ -43,10 +43,11 @@ std::vector<Pair> assemblyPairs()
                     }};
     };
     const auto ofGroups = [](const char* what) {
-        return Pair{what, Needs, {"groups", "group-by"}, "", [](const CommandLine& call) {
-                        const bool later = call.outputs.empty() && !call.dryRun;
-                        return later || call.labels.groupBy || call.verb == Convert;
-                    }};
+        return Pair{
+            what, Needs, {"groups", "group-by", "color=groups"}, "", [](const CommandLine& call) {
+                const bool later = call.outputs.empty() && !call.dryRun;
+                return later || call.labels.groupBy || call.verb == Convert;
+            }};
     };
     return {{"weld", Needs, {"by-symmetry"}},
             {"weld", Excludes, {"sharp-colors"}},

@@ -432,7 +432,7 @@ std::vector<Setting> resolutionSettings()
     Setting resolution =
         rulesRow<Settings>({"resolution", "[SEL=]D",
                             "blur to D [Å], 1 to 50, all atoms or those of a\n"
-                            "selection; repeats, later ones win"},
+                            "selection or a group; repeats, later ones win"},
                            [](Settings& s, const std::string& value) {
                                s.atoms.resolutions.push_back(parseResolution(value));
                            });
@@ -472,6 +472,9 @@ std::vector<Setting> resolutionSettings()
 /// The words of groups that are made to be coloured.
 const Values coloredGroups = {"copy", "entity", "class"};
 
+/// The beginning of colours by the groups of a file.
+constexpr char groupsStart[] = "groups=";
+
 /// The beginnings of colours by the values of a file.
 Values colorFiles()
 {
@@ -488,6 +491,7 @@ Values colorWords()
     words.insert(words.end(), coloredGroups.begin(), coloredGroups.end());
     words.insert(words.end(), valueWords().begin(), valueWords().begin() + valuesWithoutFile);
     for (const std::string& start : colorFiles()) words.push_back(start + "FILE");
+    words.push_back(groupsStart + std::string("FILE"));
     words.push_back("residue-type");
     words.push_back("plain=#RRGGBB");
     return words;
@@ -518,12 +522,18 @@ void setColor(Settings& s, const Values& values)
     const std::string typed = lowered(values.back());
     const std::string word = typed == "residue-type" ? "residue" : typed;
     s.colorGroups.reset();
+    s.colorGroupsFile.clear();
     s.labels.plainColor.reset();
     s.labels.valueBy = parseValueBy(values.back());
     s.options.color = s.labels.valueBy ? ColorBy::Value : ColorBy::Nothing;
     if (s.labels.valueBy) return;
     if (std::count(coloredGroups.begin(), coloredGroups.end(), word)) {
         s.colorGroups = parseGroupBy(word);
+        return;
+    }
+    if (word.rfind(groupsStart, 0) == 0 && word != groupsStart) {
+        s.colorGroupsFile = values.back().substr(std::string(groupsStart).size());
+        s.options.color = ColorBy::FileGroup;
         return;
     }
     if (word.rfind("plain=", 0) == 0) {
@@ -549,17 +559,20 @@ Setting colorSetting()
     words.insert(words.end(), coloredGroups.begin(), coloredGroups.end());
     for (const std::string& start : colorFiles()) values.push_back(start + "FILE");
     const std::string text = "colours of the mesh and the grid Cd: " + joinWords(words, ", ") +
-                             ", plain=#RRGGBB; by value: " + joinWords(values, ", ") +
+                             ", groups=FILE, plain=#RRGGBB; by value: " + joinWords(values, ", ") +
                              "; potentials are .dx";
     Setting color{"color", SettingType::Text, "WORD", wrapped(text, helpWidth),
                   "none",  colorWords()};
     color.set = setColor;
     color.get = [](const Settings& s) -> std::string {
         if (s.colorGroups) return textOf(*s.colorGroups);
+        if (!s.colorGroupsFile.empty()) return groupsStart + s.colorGroupsFile;
         return s.labels.valueBy ? textOf(*s.labels.valueBy) : nameOf(s.options.color);
     };
     color.file = [](const std::string& value) {
-        for (const std::string& start : colorFiles())
+        Values starts = colorFiles();
+        starts.push_back(groupsStart);
+        for (const std::string& start : starts)
             if (lowered(value).rfind(start, 0) == 0) return start.size();
         return std::string::npos;
     };

@@ -524,20 +524,22 @@ void addValues(const Structure& structure, const SelectOptions& options, const L
 }
 
 /// Adds the labels, if any are asked for. Prototypes are their groups.
-/// @param[in] groups  of `options`, with the numbers of their copies
-void addLabels(const Selections& selections, const LabelOptions& options,
-               const std::vector<GroupRule>& groups, BallSet& out)
+/// @param[in] options  whose groups have the numbers of their copies
+void addLabels(const Selections& selections, const LabelOptions& options, BallSet& out)
 {
+    const std::vector<GroupRule>& groups = options.groups;
     const bool several = out.placement.prototypes() > 1 && !out.placement.folded;
     const bool grouped = !groups.empty() || options.groupBy;
     if (several && grouped)
         throw Error(ErrorKind::Usage,
                     "`groups` and `groupBy`: expected one prototype, the assembly has " +
                         std::to_string(out.placement.copies) + " with `instances`");
-    const bool valued = options.valueBy || options.patchBy;
+    const bool valued = options.valueBy || options.patchBy || !options.colorGroups.empty();
     if (!options.labels && !valued && !grouped && !several) return;
     out.labels = labelBalls(selections, out, groups,
                             several ? GroupBy{GroupBy::Kind::Copy} : options.groupBy);
+    if (!options.colorGroups.empty())
+        addColorGroups(selections, out, options.colorGroups, *out.labels);
     out.record.warnings.insert(out.record.warnings.end(), out.labels->warnings.begin(),
                                out.labels->warnings.end());
 }
@@ -592,7 +594,7 @@ bool wantsPlacesAlone(const SelectOptions& options, const LabelOptions& labels)
 {
     return options.coarse.empty() && options.resolutions.empty() && !labels.labels &&
            !labels.names && !labels.charges && labels.groups.empty() && !labels.groupBy &&
-           !labels.valueBy && !labels.patchBy;
+           !labels.valueBy && !labels.patchBy && labels.colorGroups.empty();
 }
 
 /// Puts each part of an assembly once, if its copies have no duplicates and lie where balls may.
@@ -695,8 +697,9 @@ BallSet selectBalls(const Selections& selections, const SelectOptions& options,
                                    coarse.warnings.end());
     }
     stopIfCancelled(progress);
-    const std::vector<GroupRule> groups =
-        withCopies(structure, options.assembly.name, labels.groups, balls);
+    LabelOptions labelled = labels;
+    for (std::vector<GroupRule>* groups : {&labelled.groups, &labelled.colorGroups})
+        *groups = withCopies(structure, options.assembly.name, std::move(*groups), balls);
     placeBalls(structure, options, options.assembly.folded && wantsPlacesAlone(options, labels),
                std::move(balls), out);
     if (out.balls.empty()) {
@@ -713,7 +716,7 @@ BallSet selectBalls(const Selections& selections, const SelectOptions& options,
     if (!beadAtoms.empty()) countBeads(beadAtoms, out);
     stopIfCancelled(progress);
     applyResolutions(selections, options, out);
-    addLabels(selections, labels, groups, out);
+    addLabels(selections, labelled, out);
     stopIfCancelled(progress);
     out.coloring = labels.coloring;
     addValues(structure, options, labels, probe, progress, out);

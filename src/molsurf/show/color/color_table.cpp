@@ -112,6 +112,11 @@ bool hasGroups(const BallSet& atoms)
     return atoms.labels && !atoms.labels->groups.empty();
 }
 
+bool hasFileGroups(const BallSet& atoms)
+{
+    return atoms.labels && !atoms.labels->colorGroups.empty();
+}
+
 bool hasValues(const BallSet& atoms)
 {
     return atoms.labels && atoms.labels->values;
@@ -205,6 +210,28 @@ ColorKind byGroup()
         for (std::size_t i = 0; i < colors.size(); ++i)
             legend.entries.push_back({atoms.labels->groups[i].name, colors[i]});
         foldClasses(atoms, legend);
+    };
+    return kind;
+}
+
+/// By groups of a file, which are there for colours alone.
+ColorKind byFileGroup()
+{
+    ColorKind kind = byLabels(ColorBy::FileGroup, "groups", "Group");
+    kind.complete = false;
+    kind.needs = "groups, as of LabelOptions::colorGroups";
+    kind.has = hasFileGroups;
+    kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
+        return spread(fileGroupColors(atoms, progress), atoms.labels->colorGroupOf);
+    };
+    kind.describe = [](const BallSet& atoms, const Mesh&, const Progress& progress,
+                       Legend& legend) {
+        const std::vector<Color> colors = fileGroupColors(atoms, progress);
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            legend.entries.push_back({atoms.labels->colorGroups[i].name, colors[i]});
+        const std::vector<std::int32_t>& of = atoms.labels->colorGroupOf;
+        if (std::count(of.begin(), of.end(), -1) > 0)
+            legend.entries.push_back({"other", neutralColor});
     };
     return kind;
 }
@@ -352,6 +379,7 @@ const std::vector<ColorKind>& colorTable()
         {ColorBy::Nothing, "none"},
         byChain(),
         byGroup(),
+        byFileGroup(),
         byElement(),
         byClass<classColors, false>(ColorBy::Residue, "residue", "Residue", "or residue-type"),
         byClass<baseColors, true>(ColorBy::Nucleotide, "nucleotide", "Nucleotide"),
