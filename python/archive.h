@@ -267,7 +267,7 @@ MOLSURF_MEMBERS(Report, v.program, v.version, v.command, v.input, v.atoms, v.vox
                 v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.pockets, v.patches,
                 v.pore, v.tunnels, v.parts, v.instances, v.symmetry, v.evolution, v.activeVoxels,
                 v.gridBytes, v.seconds, v.peakMemoryBytes, v.threads, v.warnings, v.areasOf,
-                v.measures)
+                v.polarArea, v.apolarArea, v.measures)
 
 #undef MOLSURF_MEMBERS
 

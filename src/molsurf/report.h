@@ -225,6 +225,9 @@ struct Report {
             double shape = std::numeric_limits<double>::quiet_NaN(); ///< Sc, at most 1
             double distance =
                 std::numeric_limits<double>::quiet_NaN(); ///< of the surfaces, median [Å]
+            /// Contact molecular surface of each group: the area that the other buries, at every
+            /// point times exp(-d^2/2), d Å being its distance from that of the other [Å^2].
+            std::array<double, 2> contact = {};
             double gapVolume = 0.0; ///< between them, where no probe fits [Å^3]
             double gapIndex = std::numeric_limits<double>::quiet_NaN(); ///< gapVolume by the area
                                                                         ///< that each buries [Å]
@@ -443,6 +446,8 @@ struct Report {
     std::optional<Tunnels> tunnels;                      ///< if they were asked for
     std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are
                          ///< none
+    std::optional<double> polarArea, apolarArea; ///< of polar and apolar atoms [Å^2], where areas
+                                                 ///< of named atoms are known
     std::vector<std::pair<std::string, double>> measures; ///< numbers that were asked for, by name
     std::vector<Table> tables; ///< areas by atom, by residue and so on, if its caller adds them
 

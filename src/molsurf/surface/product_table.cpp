@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/product_table.h"
 
+#include "molsurf/analysis/measures/polarity.h"
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/core/quiet_progress.h"
@@ -136,6 +137,11 @@ void makeAreas(MadeRun& run)
     const bool same = run.areasOf.kind == run.options.kind && !run.ballAreas.empty();
     run.result.ballAreas =
         same ? std::move(run.ballAreas) : areasApart(run.atoms, run.areasOf, run.progress);
+    if (!run.atoms.names) return;
+    const auto [polar, apolar] = areasByPolarity(run.atoms, run.result.ballAreas);
+    const double times = double(run.atoms.placement.order());
+    run.result.report.polarArea = times * polar;
+    run.result.report.apolarArea = times * apolar;
 }
 
 void nameAreas(MadeRun& run)
