@@ -17,7 +17,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
     "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "build:--split") compadd -- 'group'; return ;;
-    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'groups=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
     "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'patches' 'pore' 'tunnels' 'forces'; return ;;
@@ -40,7 +40,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
     "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "batch:--split") compadd -- 'group'; return ;;
-    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'groups=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
     "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'patches' 'pore' 'tunnels' 'forces'; return ;;
@@ -82,7 +82,7 @@ case "$verb:$words[CURRENT-1]" in
     "bricks plan:--match") compadd -- 'none' 'ses'; return ;;
     "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
-    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'groups=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "bricks plan:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "bricks plan:--value-of") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--regularizer") compadd -- 'gradient' 'area'; return ;;
@@ -151,6 +151,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--palette:colours of values and curvatures, low ones first\: viridis,'
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
+      '--smooth-colors:vertices have the mean of values and curvatures over the'
       '--potential-offset:potentials are taken A outside of the surface [Å]'
       '--plain-color:of a surface without --color'
       '--sharp-colors:mesh files\: triangles are cut where colours meet'
@@ -267,6 +268,7 @@ if [[ $words[CURRENT] == -* ]]; then
       '--palette:colours of values and curvatures, low ones first\: viridis,'
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
+      '--smooth-colors:vertices have the mean of values and curvatures over the'
       '--potential-offset:potentials are taken A outside of the surface [Å]'
       '--plain-color:of a surface without --color'
       '--areas:tables for the report, by commas\: atoms, residues,'
