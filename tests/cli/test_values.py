@@ -378,10 +378,10 @@ class Smooth(ToolTest):
             u, v = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
             area = math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
             for corner in t:
-                areas[corner] += area
+                areas[corner] += area / 6
         for k in range(0, len(rough), 97):
-            near = [n for n in range(len(rough)) if math.dist(rough[n][:3], rough[k][:3]) <= 4]
-            mean = sum(areas[n] * rough[n][column] for n in near) / sum(areas[n] for n in near)
+            weights = [a * min(max((4 - math.dist(v[:3], rough[k][:3])) / a ** 0.5 + 0.5, 0), 1) for a, v in zip(areas, rough)]
+            mean = sum(w * v[column] for w, v in zip(weights, rough)) / sum(weights)
             self.assertAlmostEqual(smooth[k][column], mean, 4)
         self.assertNotEqual([v[red:red + 3] for v in rough], [v[red:red + 3] for v in smooth])
 

@@ -175,13 +175,9 @@ std::vector<Pair> pocketPairs()
     return pairs;
 }
 
-std::vector<Pair> surfacePairs()
+/// Rows of how values are shown.
+std::vector<Pair> valuePairs()
 {
-    const auto unlessAll = [](const CommandLine& call) {
-        const auto& rules = call.atoms.resolutions;
-        return std::none_of(rules.begin(), rules.end(),
-                            [](const ResolutionRule& rule) { return rule.select.empty(); });
-    };
     const auto ofValues = [](const char* option) {
         return Pair{
             option, IsFor, {}, "--color by a value or a curvature", [](const CommandLine& call) {
@@ -195,6 +191,38 @@ std::vector<Pair> surfacePairs()
     smooth.why = "--color by a value or a curvature, and --patches";
     const auto ofAtomValues = [](const CommandLine& call) {
         return call.labels.valueBy && !call.labels.valueBy->byPoint();
+    };
+    return {ofValues("range"),
+            ofValues("palette"),
+            smooth,
+            {"smooth-colors",
+             Excludes,
+             {"flat-values", "fields=cd", "fields=value"},
+             ": means over the surface are at vertices"},
+            {"smooth-colors",
+             Excludes,
+             {"split", "surface-of", "instances", "by-symmetry", "memory"},
+             ": they are of one mesh"},
+            {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
+            {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
+            {"potential-offset", IsFor, {"color=potential"}},
+            {"sharp-colors",
+             IsFor,
+             {},
+             "--color in flat colours, as chain or element",
+             [](const CommandLine& call) {
+                 const bool blended =
+                     call.options.color == ColorBy::Value && !call.labels.coloring.flat;
+                 return !blended && kindOf(call.options.color).hasBorders != nullptr;
+             }}};
+}
+
+std::vector<Pair> surfacePairs()
+{
+    const auto unlessAll = [](const CommandLine& call) {
+        const auto& rules = call.atoms.resolutions;
+        return std::none_of(rules.begin(), rules.end(),
+                            [](const ResolutionRule& rule) { return rule.select.empty(); });
     };
     return {{"fog-density", Needs, {"for"}},
             {"match=ses",
@@ -220,29 +248,6 @@ std::vector<Pair> surfacePairs()
                         call.options.color != ColorBy::Nothing; // --for chooses colours
              }},
             {"show-behind", IsFor, {"opacity"}},
-            ofValues("range"),
-            ofValues("palette"),
-            smooth,
-            {"smooth-colors",
-             Excludes,
-             {"flat-values", "fields=cd", "fields=value"},
-             ": means over the surface are at vertices"},
-            {"smooth-colors",
-             Excludes,
-             {"split", "surface-of", "instances", "by-symmetry", "memory"},
-             ": they are of one mesh"},
-            {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
-            {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
-            {"potential-offset", IsFor, {"color=potential"}},
-            {"sharp-colors",
-             IsFor,
-             {},
-             "--color in flat colours, as chain or element",
-             [](const CommandLine& call) {
-                 const bool blended =
-                     call.options.color == ColorBy::Value && !call.labels.coloring.flat;
-                 return !blended && kindOf(call.options.color).hasBorders != nullptr;
-             }},
             {"sharp-colors",
              IsFor,
              {},
@@ -396,7 +401,7 @@ const std::vector<Pair>& pairTable()
     static const std::vector<Pair> all = [] {
         std::vector<Pair> rows;
         for (auto* more : {runPairs, superposePairs, assemblyPairs, areaPairs, meshPairs,
-                           pocketPairs, surfacePairs})
+                           pocketPairs, surfacePairs, valuePairs})
             for (Pair& row : more()) rows.push_back(std::move(row));
         return rows;
     }();

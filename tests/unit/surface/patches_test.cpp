@@ -143,7 +143,7 @@ TEST(SmoothValues, AreMeansOfCaps)
         smoothValues(mesh, within, Progress(), values);
         const double share = 1.0 - within * within / (4.0 * radius * radius);
         for (std::size_t v = 0; v < values.size(); ++v)
-            ASSERT_NEAR(values[v], share * double(mesh.positions[v][2]), 0.16 / within) << within;
+            ASSERT_NEAR(values[v], share * double(mesh.positions[v][2]), 0.06) << within;
     }
 }
 

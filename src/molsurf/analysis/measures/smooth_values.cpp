@@ -22,7 +22,17 @@ using openvdb::Vec3d;
 struct Weighted {
     Vec3d place;
     double area, integral; // of the value over the area
+    double width;          // of a square of this area [Å]
     std::uint32_t piece;
+
+    /// The share of the square that is within a radius of a place at a squared distance.
+    double shareWithin(double radius, double square) const
+    {
+        const double inner = std::max(radius - 0.5 * width, 0.0), outer = radius + 0.5 * width;
+        if (square <= inner * inner) return 1.0;
+        if (square >= outer * outer) return 0.0;
+        return std::min((outer - std::sqrt(square)) / width, 1.0);
+    }
 };
 
 /// The vertices as balls without radius, for an index of them.
@@ -48,26 +58,28 @@ void smoothValues(const Mesh& mesh, double radius, const Progress& progress,
     for (std::size_t n = 0; n < index.size(); ++n) {
         const auto v = std::size_t(index.indexOf(n));
         const double area = std::isfinite(values[v]) ? double(areas[v]) : 0.0;
-        all.push_back(
-            {index.ball(n).center, area, area > 0.0 ? area * double(values[v]) : 0.0, pieces[v]});
+        all.push_back({index.ball(n).center, area, area > 0.0 ? area * double(values[v]) : 0.0,
+                       std::sqrt(area), pieces[v]});
     }
     constexpr std::size_t chunk = 64;
-    const double reach = radius * radius;
+    double widest = 0.0;
+    for (const Weighted& one : all) widest = std::max(widest, one.width);
+    const double reach = radius + 0.5 * widest;
     parallelFor((all.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
         for (std::size_t n = c * chunk; n < std::min(all.size(), (c + 1) * chunk); ++n) {
             const Weighted& own = all[n];
             double area = 0.0, integral = 0.0;
-            index.forEachRun(own.place, own.place, radius,
-                             [&](std::int32_t begin, std::int32_t end) {
-                                 for (std::int32_t i = begin; i < end; ++i) {
-                                     const Weighted& other = all[std::size_t(i)];
-                                     if (other.piece != own.piece ||
-                                         (other.place - own.place).lengthSqr() > reach)
-                                         continue;
-                                     area += other.area;
-                                     integral += other.integral;
-                                 }
-                             });
+            index.forEachRun(
+                own.place, own.place, reach, [&](std::int32_t begin, std::int32_t end) {
+                    for (std::int32_t i = begin; i < end; ++i) {
+                        const Weighted& other = all[std::size_t(i)];
+                        if (other.piece != own.piece) continue;
+                        const double share =
+                            other.shareWithin(radius, (other.place - own.place).lengthSqr());
+                        area += share * other.area;
+                        integral += share * other.integral;
+                    }
+                });
             if (own.area > 0.0) values[std::size_t(index.indexOf(n))] = float(integral / area);
         }
     });

@@ -14,7 +14,8 @@ namespace molsurf
 
 /// Puts in the place of each vertex's value the mean over the vertices of its connected piece of
 /// the mesh that are no farther than a radius, weighted by the area at them: a third of that of
-/// their triangles. Vertices without a value, which is not a number, have no weight, and keep none.
+/// their triangles, at the radius as much of a square of this area as is within. Vertices without a
+/// value, which is not a number, have no weight, and keep none.
 /// @param[in]     radius  [Å]
 /// @param[in,out] values  one a vertex
 void smoothValues(const Mesh& mesh, double radius, const Progress& progress,
