@@ -212,8 +212,9 @@ MOLSURF_MEMBERS(Group, v.name, v.balls, v.color, v.place)
 MOLSURF_MEMBERS(BallValues, v.name, v.title, v.unit, v.palette, v.low, v.high, v.centre, v.valueOf,
                 v.flat)
 MOLSURF_MEMBERS(Coloring, v.range, v.palette, v.byResidue, v.flat, v.potentialOffset)
-MOLSURF_MEMBERS(BallLabels, v.chainOf, v.chains, v.groupOf, v.groups, v.elementOf, v.residueClassOf,
-                v.values, v.warnings, v.chainColors, v.chainPlaces)
+MOLSURF_MEMBERS(BallLabels, v.chainOf, v.chains, v.groupOf, v.groups, v.colorGroups, v.colorGroupOf,
+                v.elementOf, v.residueClassOf, v.values, v.patchValues, v.warnings, v.chainColors,
+                v.chainPlaces)
 MOLSURF_MEMBERS(BallNames::Residue, v.chain, v.labelChain, v.name, v.number, v.insertionCode,
                 v.hetatm)
 MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
@@ -249,6 +250,8 @@ MOLSURF_MEMBERS(Report::Interface, v.first, v.second, v.area, v.count, v.fit, v.
 MOLSURF_MEMBERS(Report::Pockets::Pocket, v.volume, v.area, v.depth, v.radius, v.centre, v.open,
                 v.mouths, v.rank, v.neighbours, v.lining)
 MOLSURF_MEMBERS(Report::Pockets, v.probeIn, v.probeOut, v.cut, v.neck, v.voxel, v.list, v.isChosen)
+MOLSURF_MEMBERS(Report::Patches::Patch, v.area, v.integral, v.centre, v.parts)
+MOLSURF_MEMBERS(Report::Patches, v.value, v.above, v.level, v.list)
 MOLSURF_MEMBERS(Report::Pore::Station, v.place, v.normal, v.distance, v.radius, v.isBottleneck,
                 v.lining)
 MOLSURF_MEMBERS(Report::Pore::Way, v.radius, v.place)
@@ -261,10 +264,10 @@ MOLSURF_MEMBERS(Report::Copy, v.part, v.name, v.matrix)
 MOLSURF_MEMBERS(Report::Symmetry, v.pointGroup, v.order, v.copies, v.deviation, v.gap,
                 v.openVertices)
 MOLSURF_MEMBERS(Report, v.program, v.version, v.command, v.input, v.atoms, v.voxel, v.center,
-                v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.pockets, v.pore,
-                v.tunnels, v.parts, v.instances, v.symmetry, v.evolution, v.activeVoxels,
+                v.surface, v.coarse, v.resolutions, v.groups, v.interfaces, v.pockets, v.patches,
+                v.pore, v.tunnels, v.parts, v.instances, v.symmetry, v.evolution, v.activeVoxels,
                 v.gridBytes, v.seconds, v.peakMemoryBytes, v.threads, v.warnings, v.areasOf,
-                v.measures)
+                v.polarArea, v.apolarArea, v.measures)
 
 #undef MOLSURF_MEMBERS
 

@@ -465,6 +465,11 @@ nb::dict tableOf(MadeSurface& surface, const std::string& name, const std::strin
             throw Error(ErrorKind::Usage, "table: expected a surface with `pockets`, got none");
         return dictOf(result.report.pockets->table(atoms));
     }
+    if (name == "patches") {
+        if (!result.report.patches)
+            throw Error(ErrorKind::Usage, "table: expected a surface with `patches`, got none");
+        return dictOf(result.report.patches->table(atoms));
+    }
     if (name == "pore") {
         if (!result.report.pore)
             throw Error(ErrorKind::Usage, "table: expected a surface with `pore`, got none");
@@ -790,7 +795,8 @@ void addFunctions(nb::module_& m)
     m.def("is_of_file", [](const std::string& color) {
         try {
             const Settings s = settingsOf({{"color", {color}}});
-            return s.colorGroups || s.labels.valueBy || s.labels.plainColor;
+            return s.colorGroups || !s.colorGroupsFile.empty() || s.labels.valueBy ||
+                   s.labels.plainColor;
         } catch (const Error&) {
             return false;
         }

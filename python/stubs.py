@@ -84,7 +84,7 @@ ARRAYS = {"vertices": "float32", "normals": "float32", "faces": "int32", "curvat
           "gaussian_curvature": "float32", "shape_index": "float64", "principal_curvatures": "float64",
           "colors": "uint8", "atom": "int32", "atom_areas": "float64", "cavities": "float64"}
 PLAIN = {"vertex_data": "dict[str, NDArray[Any]]", "contacts": "Contacts",
-         "pockets": "dict[str, NDArray[Any]]", "pore": "dict[str, NDArray[Any]]",
+         "pockets": "dict[str, NDArray[Any]]", "patches": "dict[str, NDArray[Any]]", "pore": "dict[str, NDArray[Any]]",
          "tunnels": "dict[str, NDArray[Any]]", "area": "float", "volume": "float",
          "closed": "bool", "kind": "str", "report": "dict[str, Any]"}
 OF_ATOMS = {"positions": "float64", "radii": "float64", "name": "str_", "element": "int32", "residue": "str_",
@@ -93,7 +93,7 @@ OF_ATOMS = {"positions": "float64", "radii": "float64", "name": "str_", "element
 OF_MOLECULES = {"copies": "int", "groups": "list[str]", "warnings": "list[str]"}
 
 METHODS = '''\
-    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets", "pore", "tunnels"],
+    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets", "patches", "pore", "tunnels"],
               level: Literal["atom", "residue", "chain"] = "residue") -> dict[str, NDArray[Any]]: ...
     def forces(self, gamma: float | None = None, pressure: float | None = None, *,
                progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> NDArray[np.float64]: ...

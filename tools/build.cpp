@@ -226,7 +226,8 @@ std::vector<StageShare> stagesOf(const SurfaceOptions& options, double drawing)
 /// Refuses interfaces of one group, where the report of one structure would have nothing else.
 void checkGroups(const CommandLine& call, const BallSet& balls)
 {
-    const bool implied = !call.has("groups") && !call.has("group-by") && !call.colorGroups;
+    const bool implied = !call.has("groups") && !call.has("group-by") && !call.colorGroups &&
+                         call.colorGroupsFile.empty();
     if (!call.has("interfaces") || !implied || call.verb != Build || !call.frames.empty() ||
         balls.labels->groups.size() > 1)
         return;
@@ -390,6 +391,15 @@ std::string pocketsLine(const Report::Pockets& pockets)
     return line + formatted("; below a cut of %g Å", pockets.cut);
 }
 
+std::string patchesLine(const Report::Patches& patches)
+{
+    std::string line = "patches: " + std::to_string(patches.list.size());
+    if (!patches.list.empty())
+        line += formatted(", the largest of %.1f Å^2", patches.list.front().area);
+    return line + formatted("; %s %s %g", patches.value.c_str(), patches.above ? "above" : "below",
+                            patches.level);
+}
+
 /// A line on the pore.
 std::string poreLine(const Report::Pore& pore)
 {
@@ -465,6 +475,7 @@ Report buildSurface(const CommandLine& call, const BallSet& balls, const Report&
         if (const std::string held = heldText(*report.evolution, call.options); !held.empty())
             printLine(held);
     if (report.pockets) printLine(pocketsLine(*report.pockets));
+    if (report.patches) printLine(patchesLine(*report.patches));
     if (report.pore) printLine(poreLine(*report.pore));
     if (report.tunnels) printLine(tunnelsLine(*report.tunnels));
     for (const std::string& line : leftOutOf(call)) printLine(line);

@@ -7,7 +7,7 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'off' 'wrl' 'msh2' 'nvdb' 'mrc' 'dx' 'density.mrc' 'mask.mrc' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pdb' 'cif' 'residues.pdb' 'residues.cif' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.wrl' 'pockets.vtk' 'pockets.glb' 'pockets.3mf' 'pore.ply' 'pore.obj' 'pore.stl' 'pore.off' 'pore.wrl' 'pore.vtk' 'pore.glb' 'pore.3mf' 'tunnels.ply' 'tunnels.obj' 'tunnels.stl' 'tunnels.off' 'tunnels.wrl' 'tunnels.vtk' 'tunnels.glb' 'tunnels.3mf'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'off' 'wrl' 'msh2' 'nvdb' 'mrc' 'dx' 'density.mrc' 'mask.mrc' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'patches.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pdb' 'cif' 'residues.pdb' 'residues.cif' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.wrl' 'pockets.vtk' 'pockets.glb' 'pockets.3mf' 'pore.ply' 'pore.obj' 'pore.stl' 'pore.off' 'pore.wrl' 'pore.vtk' 'pore.glb' 'pore.3mf' 'tunnels.ply' 'tunnels.obj' 'tunnels.stl' 'tunnels.off' 'tunnels.wrl' 'tunnels.vtk' 'tunnels.glb' 'tunnels.3mf'; return ;;
     "build:--superpose") compadd -- 'auto'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--pieces") compadd -- 'all' 'outer' 'cavities'; return ;;
@@ -17,11 +17,12 @@ case "$verb:$words[CURRENT-1]" in
     "build:--coarse") compadd -- 'atom' 'residue'; return ;;
     "build:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "build:--split") compadd -- 'group'; return ;;
-    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "build:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'groups=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "build:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "build:--value-of") compadd -- 'atom' 'residue'; return ;;
-    "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
+    "build:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'patches' 'pore' 'tunnels' 'forces'; return ;;
     "build:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
+    "build:--patches") compadd -- 'mean-curvature>' 'gaussian-curvature>' 'bfactor>' 'occupancy>' 'charge>' 'hydrophobicity>' 'rainbow>' 'radius>' 'depth>' 'table=FILE>' 'potential=FILE>'; return ;;
     "build:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd' 'unreal' 'arnold'; return ;;
     "build:--ids") compadd -- 'int' 'float'; return ;;
     "build:--view") compadd -- 'auto'; return ;;
@@ -39,11 +40,12 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--coarse") compadd -- 'atom' 'residue'; return ;;
     "batch:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
     "batch:--split") compadd -- 'group'; return ;;
-    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "batch:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'groups=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "batch:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "batch:--value-of") compadd -- 'atom' 'residue'; return ;;
-    "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'pore' 'tunnels' 'forces'; return ;;
+    "batch:--areas") compadd -- 'atoms' 'residues' 'contacts' 'interfaces' 'pockets' 'patches' 'pore' 'tunnels' 'forces'; return ;;
     "batch:--contacts") compadd -- 'atom' 'residue' 'chain'; return ;;
+    "batch:--patches") compadd -- 'mean-curvature>' 'gaussian-curvature>' 'bfactor>' 'occupancy>' 'charge>' 'hydrophobicity>' 'rainbow>' 'radius>' 'depth>' 'table=FILE>' 'potential=FILE>'; return ;;
     "batch:--for") compadd -- 'apbs' 'blender' 'blender4' 'houdini' 'usd' 'unreal' 'arnold'; return ;;
     "batch:--ids") compadd -- 'int' 'float'; return ;;
     "batch:--view") compadd -- 'auto'; return ;;
@@ -80,7 +82,7 @@ case "$verb:$words[CURRENT-1]" in
     "bricks plan:--match") compadd -- 'none' 'ses'; return ;;
     "bricks plan:--coarse") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--group-by") compadd -- 'chain' 'entity' 'class' 'copy'; return ;;
-    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
+    "bricks plan:--color") compadd -- 'none' 'chain' 'group' 'element' 'residue' 'nucleotide' 'illustrative' 'hetero' 'mean-curvature' 'gaussian-curvature' 'pocket' 'patch' 'copy' 'entity' 'class' 'bfactor' 'occupancy' 'charge' 'hydrophobicity' 'rainbow' 'radius' 'depth' 'table=FILE' 'potential=FILE' 'groups=FILE' 'residue-type' 'plain=#RRGGBB'; return ;;
     "bricks plan:--palette") compadd -- 'viridis' 'cividis' 'batlow' 'OrRd' 'RdBu' 'BuRd' 'OrPu' 'turbo' 'plddt'; return ;;
     "bricks plan:--value-of") compadd -- 'atom' 'residue'; return ;;
     "bricks plan:--regularizer") compadd -- 'gradient' 'area'; return ;;
@@ -149,11 +151,13 @@ if [[ $words[CURRENT] == -* ]]; then
       '--palette:colours of values and curvatures, low ones first\: viridis,'
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
+      '--smooth-colors:vertices have the mean of values and curvatures over the'
       '--potential-offset:potentials are taken A outside of the surface [Å]'
       '--plain-color:of a surface without --color'
       '--sharp-colors:mesh files\: triangles are cut where colours meet'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
+      '--patches:connected pieces of the surface where a value of --color,'
       '--pockets:pockets of the surface, for the report, .pockets.csv, and a'
       '--pocket-at:only the pocket at these atoms of the file, used or not\:'
       '--probe-in:radius of the probe that gets into pockets [Å], 0.5 to 10'
@@ -269,10 +273,12 @@ if [[ $words[CURRENT] == -* ]]; then
       '--palette:colours of values and curvatures, low ones first\: viridis,'
       '--value-of:whose values\: atom, or residue (the mean of its atoms)'
       '--flat-values:a point has the value of one atom, not a blend of nearby ones'
+      '--smooth-colors:vertices have the mean of values and curvatures over the'
       '--potential-offset:potentials are taken A outside of the surface [Å]'
       '--plain-color:of a surface without --color'
       '--areas:tables for the report, by commas\: atoms, residues,'
       '--contacts:contact areas between atoms, residues or chains\: atom,'
+      '--patches:connected pieces of the surface where a value of --color,'
       '--pockets:pockets of the surface, for the report, .pockets.csv, and a'
       '--pocket-at:only the pocket at these atoms of the file, used or not\:'
       '--probe-in:radius of the probe that gets into pockets [Å], 0.5 to 10'

@@ -136,7 +136,7 @@ def test_every_keyword_is_taken(crambin):
                 "palette": "cividis", "value_of": "residue", "potential_offset": 2,
                 "pocket_at": "resid 5", "probe_in": 1.2, "probe_out": 5, "pocket_cut": 1, "pocket_neck": 0.4,
                 "pore": "resid 2 -> resid 30", "tunnels_from": "resid 30", "tunnel_probe": 1.2, "min_thickness": 1.5,
-                "measures": ["sphericity", "gyration_radius"]}
+                "measures": ["sphericity", "gyration_radius"], "patches": "hydrophobicity>0", "smooth_colors": 3}
     for name, row in _options.KEYWORDS.items():
         value = True if row["type"] == "switch" else examples[name]
         if name in ("hetero", "no_hetero", "interfaces", "instances", "by_symmetry", "charges"):

@@ -139,6 +139,43 @@ def test_pockets_are_a_table(crambin, ses):
         ses.pockets
 
 
+def test_patches_are_a_table_and_colours(crambin, ses):
+    surface = crambin.surface(voxel=0.7, patches="hydrophobicity>0", color="patch")
+    table = surface.patches
+    assert (np.diff(table["area"]) <= 0).all() and set(table["side"]) == {"above"}
+    assert set(surface.vertex_data["patch"]) == set(range(len(table["area"]) + 1))
+    low = crambin.surface(voxel=0.7, patches="hydrophobicity<0").patches
+    corners = surface.vertices[surface.faces].astype(float)
+    whole = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+    assert abs(table["area"].sum() + low["area"].sum() - whole) < 1e-6 * whole
+    assert np.allclose(table["mean"] * table["area"], table["integral_A2"])
+    assert (pickle.loads(pickle.dumps(surface)).patches["area"] == table["area"]).all()
+    with pytest.raises(ValueError, match="patches"):
+        ses.patches
+    with pytest.raises(ms.OptionError, match="hydrophobicity"):
+        crambin.surface(patches="hydrophob>0")
+
+
+def test_colours_are_smoothed(crambin):
+    rough, smooth = (crambin.surface(voxel=0.7, color="mean-curvature", **more) for more in ({}, {"smooth_colors": 3}))
+    assert (smooth.vertices == rough.vertices).all()
+    assert smooth.curvature.std() < 0.6 * rough.curvature.std() and (smooth.colors != rough.colors).any()
+    one = ms.surface(ONE, 2.0, kind="vdw", voxel=0.25, color="mean-curvature", smooth_colors=1)
+    assert np.allclose(one.curvature, 0.5, atol=0.02)
+    with pytest.raises(ms.OptionError, match="smooth_colors"):
+        ms.surface(ONE, 2.0, smooth_colors=0.1)
+
+
+def test_colours_by_groups_of_their_own(tmp_path):
+    (tmp_path / "colors").write_text("first A/1-15 #ff0000\nsecond A/16-30 #00ff00\n")
+    m = ms.read(DATA / "1crn.pdb", groups={"stem": "resid 1-23"})
+    surface = m.surface(voxel=1, color=f"groups={tmp_path / 'colors'}", surface_of="stem=vdw")
+    assert {(255, 0, 0), (0, 255, 0)} < set(map(tuple, surface.colors.tolist()))
+    assert [part["name"] for part in surface.report["parts"]] == ["stem", "other"]
+    a, b = (ms.read(DATA / "1crn.pdb", groups={"stem": "resid 1-23"}, resolution=f"{name}=6").surface(voxel=1) for name in ("stem", "resid 1-23"))
+    assert (a.vertices == b.vertices).all()
+
+
 @pytest.mark.parametrize("kind, probe", [("sas", 1.4), ("vdw", 0.0)])
 def test_distances_from_unions_are_exact(crambin, kind, probe):
     x, r = crambin.positions, crambin.radii

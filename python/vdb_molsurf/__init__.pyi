@@ -95,6 +95,8 @@ class Surface:
     @property
     def pockets(self) -> dict[str, NDArray[Any]]: ...
     @property
+    def patches(self) -> dict[str, NDArray[Any]]: ...
+    @property
     def pore(self) -> dict[str, NDArray[Any]]: ...
     @property
     def tunnels(self) -> dict[str, NDArray[Any]]: ...
@@ -108,7 +110,7 @@ class Surface:
     def kind(self) -> str: ...
     @property
     def report(self) -> dict[str, Any]: ...
-    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets", "pore", "tunnels"],
+    def table(self, name: Literal["atoms", "residues", "contacts", "interfaces", "pockets", "patches", "pore", "tunnels"],
               level: Literal["atom", "residue", "chain"] = "residue") -> dict[str, NDArray[Any]]: ...
     def forces(self, gamma: float | None = None, pressure: float | None = None, *,
                progress: Callable[[str, float], object] | bool | None = None, threads: int = 0) -> NDArray[np.float64]: ...
@@ -197,11 +199,13 @@ class Molecule:
         surface_of: str | float | Sequence[str | float] = ...,
         interfaces: bool = False,
         color: str = ...,
+        patches: str = ...,
         range: str | Sequence[object] = ...,
         palette: Literal["viridis", "cividis", "batlow", "OrRd", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
         value_of: Literal["atom", "residue"] = "atom",
         flat_values: bool = False,
         potential_offset: float = ...,
+        smooth_colors: float = ...,
         pocket_at: str = ...,
         pore: str = ...,
         tunnels_from: str = ...,
@@ -253,6 +257,7 @@ def surface(positions: ArrayLike, radii: ArrayLike, *,
     surface_of: str | float | Sequence[str | float] = ...,
     interfaces: bool = False,
     color: str = ...,
+    smooth_colors: float = ...,
     tunnel_probe: float = 0.9,
     pockets: bool = False,
     probe_in: float = 1.4,
@@ -312,11 +317,13 @@ def read(source: Path | bytes | bytearray | memoryview | TextIO | BinaryIO, *,
     surface_of: str | float | Sequence[str | float] = ...,
     interfaces: bool = False,
     color: str = ...,
+    patches: str = ...,
     range: str | Sequence[object] = ...,
     palette: Literal["viridis", "cividis", "batlow", "OrRd", "RdBu", "BuRd", "OrPu", "turbo", "plddt"] = ...,
     value_of: Literal["atom", "residue"] = "atom",
     flat_values: bool = False,
     potential_offset: float = ...,
+    smooth_colors: float = ...,
     pocket_at: str = ...,
     pore: str = ...,
     tunnels_from: str = ...,

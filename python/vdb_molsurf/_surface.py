@@ -300,6 +300,11 @@ class Surface:
         return self.table("pockets")
 
     @property
+    def patches(self):
+        """Table of the patches, the largest first, of a surface that was made with patches="hydrophobicity>0"."""
+        return self.table("patches")
+
+    @property
     def pore(self):
         """Table of the pore, a row for each section, of atoms that were read with pore="auto" or its ends."""
         return self.table("pore")
@@ -325,11 +330,11 @@ class Surface:
         return json.loads(self._core.report_text())
 
     def table(self, name, level="residue"):
-        """A table as a dict of arrays: "atoms", "residues", "contacts", "interfaces", "pockets", "pore" or "tunnels".
+        """A table as a dict of arrays: "atoms", "residues", "contacts", "interfaces", "pockets", "patches", "pore" or "tunnels".
 
         level: of contacts: "atom", "residue" or "chain".
         """
-        names = ("atoms", "residues", "contacts", "interfaces", "pockets", "pore", "tunnels")
+        names = ("atoms", "residues", "contacts", "interfaces", "pockets", "patches", "pore", "tunnels")
         levels = ("atom", "residue", "chain")
         if name not in names:
             raise ValueError(f"table: expected {', '.join(names)}, got '{str(name)[:40]}'")

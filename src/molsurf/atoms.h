@@ -136,9 +136,12 @@ struct BallLabels {
         chains; ///< name of each chain: "A", in an assembly's second copy "A-2"
     std::vector<std::int32_t> groupOf;        ///< index into `groups`; -1: the ball is in no group
     std::vector<Group> groups;                ///< the groups that were asked for, in their order
+    std::vector<Group> colorGroups;           ///< those that ColorBy::FileGroup shows
+    std::vector<std::int32_t> colorGroupOf;   ///< index into them; -1: none; empty: there are none
     std::vector<std::uint8_t> elementOf;      ///< atomic number; 0: the element is unknown
     std::vector<ResidueClass> residueClassOf; ///< the kind of the ball's residue
     std::optional<BallValues> values;         ///< if there are any
+    std::optional<BallValues> patchValues;    ///< those that patches are of, if there are any
     std::vector<std::string>
         warnings; ///< one line each, as of groups that lost atoms to later ones
     /// Red, green, blue (sRGB) of each chain. If it is empty the library chooses colours of which
@@ -258,10 +261,13 @@ struct Coloring {
 
 /// Labels, values and colours of balls, which products and files ask for.
 struct LabelOptions {
-    std::vector<GroupRule> groups;  ///< groups; the later rule wins
-    std::optional<GroupBy> groupBy; ///< makes the groups instead of `groups`
-    std::optional<ValueBy> valueBy; ///< the values that ColorBy::Value shows
-    Coloring coloring;              ///< how values and curvatures are shown
+    std::vector<GroupRule> groups;      ///< groups; the later rule wins
+    std::optional<GroupBy> groupBy;     ///< makes the groups instead of `groups`
+    std::vector<GroupRule> colorGroups; ///< the groups that ColorBy::FileGroup shows, whatever
+                                        ///< `groups` are; the later rule wins
+    std::optional<ValueBy> valueBy;     ///< the values that ColorBy::Value shows
+    std::optional<ValueBy> patchBy;     ///< the values that PatchRule::by Value is about
+    Coloring coloring;                  ///< how values and curvatures are shown
     std::optional<std::array<std::uint8_t, 3>>
         plainColor;       ///< red, green, blue (sRGB) that all balls get, if it is given
     bool labels = true;   ///< whether the balls are labelled even if there are neither groups nor

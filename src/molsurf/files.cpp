@@ -173,6 +173,7 @@ void checkMade(const ShownSurface& shown, const Output& output)
          "a surface with `contacts`"},
         {table == "interfaces", options.interfaces, "a surface with `interfaces`"},
         {table == "pockets", bool(made.report.pockets), "a surface with `pockets`"},
+        {table == "patches", bool(made.report.patches), "a surface with `patches`"},
         {output.holds(holds::Numbered), options.pocketBodies, "a surface with `pocketBodies`"},
         {table == "pore", bool(made.report.pore), "a surface of atoms with a `pore`"},
         {table == "tunnels", bool(made.report.tunnels), "a surface of atoms with `tunnelsFrom`"},

@@ -29,7 +29,9 @@ enum class ColorBy {
     Value,        ///< values of the balls
     Illustrative, ///< the chain, lighter at carbon
     Hetero,       ///< the chain at carbon, else the element
-    Pocket        ///< the pocket whose wall a point is
+    Pocket,       ///< the pocket whose wall a point is
+    Patch,        ///< the patch that a point is in
+    FileGroup     ///< the group of BallLabels::colorGroups
 };
 
 /// Products of a surface: its grids, its mesh, and the measures of its report.
@@ -48,6 +50,14 @@ struct Products : KernelProducts {
         double neck = 0.55;
     };
 
+    /// Definition of a patch: a connected piece of the mesh where a value is above a level, or
+    /// below it.
+    struct PatchRule {
+        ColorBy by = ColorBy::Value; ///< a curvature, or the value of LabelOptions::patchBy
+        bool above = true;           ///< else below
+        double level = 0.0;          ///< in the unit of the value
+    };
+
     ColorBy color =
         ColorBy::Nothing; ///< property that colours the mesh's vertices and the grid `Cd`
     bool split = false;   ///< whether every group of atoms gets a surface of its own
@@ -60,10 +70,14 @@ struct Products : KernelProducts {
     bool contacts = false;             ///< whether MolecularSurface::contacts is made
     bool pockets = false;              ///< whether the report has pockets
     PocketRule pocket;                 ///< which
-    bool pocketBodies = false;         ///< whether MolecularSurface::pocketBodies is made
-    SearchPlaces places;               ///< where pockets, a pore and tunnels are searched for
-    double tunnelProbe = 0.9; ///< tunnels are as wide as this at least, in [0.3, 10] [Å]; they
-                              ///< end where a ball of PocketRule::probeOut gets
+    std::optional<PatchRule> patches;  ///< which patches the report has; none: it has none
+    /// Radius within which vertices get the mean of the values that colours show and patches are
+    /// of, in [0.5, 20] [Å]; 0: they have their own.
+    double smoothColors = 0.0;
+    bool pocketBodies = false; ///< whether MolecularSurface::pocketBodies is made
+    SearchPlaces places;       ///< where pockets, a pore and tunnels are searched for
+    double tunnelProbe = 0.9;  ///< tunnels are as wide as this at least, in [0.3, 10] [Å]; they
+                               ///< end where a ball of PocketRule::probeOut gets
     /// The kind of surface that ballAreas, contacts and interfaces are of; none: that of `kind`.
     std::optional<SurfaceKind> areasOf;
     /// Whether there is a grid and a mesh of it. Without them the result has what is known in

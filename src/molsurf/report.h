@@ -178,7 +178,7 @@ struct Table {
     };
 
     std::string name; ///< "atoms", "residues", "contacts", "interfaces", "pockets",
-                      ///< "pore", "tunnels" or "forces"
+                      ///< "patches", "pore", "tunnels" or "forces"
     std::vector<Column> columns;
 };
 
@@ -225,6 +225,9 @@ struct Report {
             double shape = std::numeric_limits<double>::quiet_NaN(); ///< Sc, at most 1
             double distance =
                 std::numeric_limits<double>::quiet_NaN(); ///< of the surfaces, median [Å]
+            /// Contact molecular surface of each group: the area that the other buries, at every
+            /// point times exp(-d^2/2), d Å being its distance from that of the other [Å^2].
+            std::array<double, 2> contact = {};
             double gapVolume = 0.0; ///< between them, where no probe fits [Å^3]
             double gapIndex = std::numeric_limits<double>::quiet_NaN(); ///< gapVolume by the area
                                                                         ///< that each buries [Å]
@@ -308,6 +311,30 @@ struct Report {
         /// and Glu), atoms (how many line it), residues and atom_ids (which), and what was asked
         /// for: probe_in_A, probe_out_A, cut_A, neck and voxel_A. Without names of the atoms what
         /// needs these is empty.
+        /// @param[in] atoms  that they are of
+        Table table(const BallSet& atoms) const;
+    };
+
+    /// The patches, and what was asked for.
+    struct Patches {
+        /// A connected piece of the mesh where a value, linear on each triangle, is beyond a level.
+        struct Patch {
+            double area = 0.0;                            ///< of the triangles there [Å^2]
+            double integral = 0.0;                        ///< of the value over it
+            std::array<double, 3> centre = {};            ///< mean of its points [Å]
+            std::vector<Pockets::Pocket::Lining> parts{}; ///< of its balls, ascending
+        };
+
+        std::string value;       ///< what it is: "hydrophobicity"
+        bool above = true;       ///< whether patches are where it is above the level, or below
+        double level = 0.0;      ///< in the unit of the value
+        std::vector<Patch> list; ///< the largest first
+
+        /// A row for every patch: patch (its number from 1), area, mean and integral_A2 of the
+        /// value, x_A, y_A, z_A (mean of its points), atoms and residue_count (how many have a part
+        /// of it), residues and atom_ids (which), and what was asked for: value, side of the level
+        /// ("above" or "below") and level.
+        /// Without names of the atoms what needs these is empty.
         /// @param[in] atoms  that they are of
         Table table(const BallSet& atoms) const;
     };
@@ -414,10 +441,13 @@ struct Report {
     int threads = 0;                                     ///< number of threads that the run used
     std::vector<std::string> warnings;                   ///< one line each
     std::optional<Pockets> pockets;                      ///< if they were asked for
+    std::optional<Patches> patches;                      ///< if they were asked for
     std::optional<Pore> pore;                            ///< if it was asked for
     std::optional<Tunnels> tunnels;                      ///< if they were asked for
     std::string areasOf; ///< kind of surface that interfaces and tables are of; empty if there are
                          ///< none
+    std::optional<double> polarArea, apolarArea; ///< of polar and apolar atoms [Å^2], where areas
+                                                 ///< of named atoms are known
     std::vector<std::pair<std::string, double>> measures; ///< numbers that were asked for, by name
     std::vector<Table> tables; ///< areas by atom, by residue and so on, if its caller adds them
 

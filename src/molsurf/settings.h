@@ -29,6 +29,8 @@ struct Settings {
     SurfaceOptions options;
     std::optional<GroupBy> colorGroups; ///< what has colours that are no ColorBy: those of groups
                                         ///< that are made for them
+    std::string colorGroupsFile; ///< of the groups that ColorBy::FileGroup shows; resolveGroups()
+                                 ///< reads it
 
     /// Whether copies of an assembly, which nodes place, have colours.
     bool colorsCopies() const

@@ -241,8 +241,8 @@ Table contactTable(const BallSet& atoms, ContactLevel level, const MolecularSurf
 /// buried_area, their difference, and area, half of that: its part of the interface. The areas
 /// of an interface's rows add up to Report::Interface::area. buried_polar_area and
 /// buried_apolar_area are the parts of buried_area by the class of atoms, as of atomTable(). Each
-/// row has the fit of the pair, too: shape_complementarity, median_distance_A, gap_volume and
-/// gap_index_A.
+/// row has the fit of the pair, too: shape_complementarity, median_distance_A, gap_volume,
+/// gap_index_A, contact_area_1 and contact_area_2.
 /// @throws Error(ErrorKind::Usage) if the atoms have no names, or the report no interfaces with
 ///         the balls that they bury
 Table interfaceTable(const BallSet& atoms, const Report& report);

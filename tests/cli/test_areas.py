@@ -166,6 +166,12 @@ class Areas(ToolTest):
         for row in [*atoms, *self.table("h.residues.csv")]:
             self.assertAlmostEqual(float(row["polar_area"]) + float(row["apolar_area"]), float(row["area"]), 9)
         self.assertAlmostEqual(self.total(atoms, "polar_area"), self.total(self.table("h.residues.csv"), "polar_area"), 9)
+        self.check(0, "h.pdb", *SAS, "--hetero", "-o", "h.json", "--areas", "residues")
+        report = self.report("h.json")
+        for key in "polar_area", "apolar_area":
+            self.assertAlmostEqual(report[key], self.total(atoms, key), 9)
+        self.check(0, "h.pdb", *SAS, "--hetero", "-o", "bare.json")
+        self.assertIsNone(self.report("bare.json")["polar_area"])
         self.check(0, ASPARTATE, *SAS, "--radii", "naccess", "-o", "a.interfaces.csv")
         for row in self.table("a.interfaces.csv"):
             self.assertAlmostEqual(float(row["buried_polar_area"]) + float(row["buried_apolar_area"]),
@@ -193,7 +199,20 @@ class Areas(ToolTest):
                             ("gap_volume",) * 2, ("gap_index", "gap_index_A")):
             for row in rows:
                 self.assertAlmostEqual(float(row[column]), told["A", "B"][key], 9)
+        for k in (0, 1):
+            for row in rows:
+                self.assertAlmostEqual(float(row[f"contact_area_{k + 1}"]), told["A", "B"]["contact_areas"][k], 9)
         self.assertTrue(0.5 < told["A", "B"]["shape_complementarity"] < 0.7)
+
+    def test_buried_polar_atoms_have_no_area_in_the_complex(self):
+        self.check(0, ASPARTATE, *SAS, "--select", "A,B", "-o", "a.interfaces.csv", "-o", "both.atoms.csv")
+        self.check(0, ASPARTATE, *SAS, "--select", "A", "-o", "one.atoms.csv")
+        self.check(0, ASPARTATE, *SAS, "--select", "B", "-o", "two.atoms.csv")
+        alone = {row["atom_id"]: row for name in ("one", "two") for row in self.table(f"{name}.atoms.csv")}
+        covered = [row for row in self.table("both.atoms.csv")
+                   if row["element"] in ("N", "O") and float(row["area"]) < 1e-9 < float(alone[row["atom_id"]]["area"])]
+        self.assertGreater(len(covered), 3)
+        self.assertEqual(sum(int(row["buried_polar_atoms"]) for row in self.table("a.interfaces.csv")), len(covered))
 
     def test_fit_of_what_hardly_touches_is_empty(self):
         self.write("a.pdb", atom(1, 0.0, chain="A") + atom(2, 5.0, chain="B") + atom(3, 40.0, chain="C"))

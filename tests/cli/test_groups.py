@@ -145,6 +145,36 @@ class Groups(ToolTest):
         self.assertEqual([(p["name"], p["surface"]["kind"]) for p in report["parts"]],
                          [("copy 2", "ses"), ("other", "variational")])
 
+    def test_colors_apart_from_groups(self):
+        (self.folder / "parts").write_text("stem A/1-23\nrest A/24-46\n")
+        (self.folder / "colors").write_text("first A/1-15 #ff0000\nsecond A/16-30 #00ff00\n")
+        self.check(0, CRAMBIN, *FAST, "--groups", "parts", "--surface-of", "stem=vdw", "--color", "groups=colors", "-o", "a.ply", "-o", "a.json",
+                   "-o", "a.legend.svg")
+        names, vertices, _ = read_ply((self.folder / "a.ply").read_bytes())
+        red, group = names.index("red"), names.index("group_id")
+        pairs = {(vertex[group], vertex[red:red + 3]) for vertex in vertices}
+        self.assertEqual(len({color for _, color in pairs}), 3)
+        self.assertLessEqual({(0, (255, 0, 0)), (0, (0, 255, 0)), (1, (0, 255, 0))}, pairs)
+        self.assertEqual([part["name"] for part in json.loads((self.folder / "a.json").read_text())["parts"]], ["stem", "other"])
+        legend = (self.folder / "a.legend.svg").read_text()
+        for name in ("first", "second", "other"):
+            self.assertIn(name, legend)
+
+    def test_names_of_groups_for_resolutions_and_parts(self):
+        (self.folder / "colors").write_text("stem A/1-23\nrest A/24-46\n")
+        for name, words in (("a", ["--resolution", "stem=5", "--resolution", "rest=3"]),
+                            ("b", ["--resolution", "A/1-23=5", "--resolution", "A/24-46=3"])):
+            self.check(0, CRAMBIN, *FAST, "--color", "groups=colors", *words, "-o", f"{name}.ply")
+        vertices = [read_ply((self.folder / f"{name}.ply").read_bytes())[1] for name in "ab"]
+        self.assertEqual(*vertices)
+        self.check(0, CRAMBIN, *FAST, "--color", "groups=colors", "--interfaces", "-o", "c.json")
+        pair, = json.loads((self.folder / "c.json").read_text())["interfaces"]
+        self.assertEqual(pair["groups"], ["stem", "rest"])
+        self.check(0, CRAMBIN, *FAST, "--color", "groups=colors", "--split", "group", "-o", "c.vdb")
+        self.check(1, CRAMBIN, *FAST, "--color", "groups=none", "-o", "d.ply", says=["none", "No such file"])
+        (self.folder / "some").write_text("stem A/1-23 copies=1\n")
+        self.check(2, *DIMER, *FAST, "--color", "groups=some", "--resolution", "stem=5", "-o", "d.ply", says="--resolution: expected a group of all copies")
+
     def test_interfaces(self):
         report = self.report(*DIMER, "--group-by", "copy", "--interfaces", "--surface", "sas")
         buried, = report["interfaces"]

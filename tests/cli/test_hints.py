@@ -164,6 +164,8 @@ CASES = {
     "kernel/pipeline/pose_error.cpp": [
         ("--lambda 0.04", "vdb_molsurf 1crn.pdb --lambda 0.1 --voxel 1 -o a.ply", "vdb_molsurf 1crn.pdb --lambda 0.04 --voxel 1 -o b.ply")],
     "surface/settings.cpp": [
+        ("hydrophobicity>0", f"vdb_molsurf 1crn.pdb {FAST} --patches hydrophobicity -o a.patches.csv",
+         f"vdb_molsurf 1crn.pdb {FAST} --patches 'hydrophobicity>0' -o a.patches.csv"),
         ("--group-by chain --split group", f"vdb_molsurf 1a8o.cif.gz --assembly 1 {FAST} --split chain -o a.ply",
          f"vdb_molsurf 1a8o.cif.gz --assembly 1 {FAST} --group-by chain --split group -o a.ply"),
         ("--color plain=red", f"vdb_molsurf one.xyzr {FAST} --color red -o a.ply",
@@ -516,6 +518,8 @@ CASES = {
     "tools/cli/option_table.cpp": [
         ("all cores are used without --threads", f"vdb_molsurf one.xyzr {FAST} -j 0 -o a.ply", f"vdb_molsurf one.xyzr {FAST} -o a.ply")],
     "tools/cli/pair_table.cpp": [
+        ("--patches 'hydrophobicity>0', for example", f"vdb_molsurf 1crn.pdb {FAST} -o a.patches.csv",
+         f"vdb_molsurf 1crn.pdb {FAST} --patches 'hydrophobicity>0' -o a.patches.csv"),
         ('--tunnels-from "resid 57", for example', "vdb_molsurf 1grm.pdb.gz -o a.tunnels.csv",
          "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnels.csv"),
         ("-o FILE.tunnels.csv for one", "vdb_molsurf 1grm.pdb.gz --tunnels-from 'resid 1' -o a.tunnel_frames.csv",

@@ -364,5 +364,35 @@ class Values(ToolTest):
                    "-o", "a.glb", says="--color radius")
 
 
+class Smooth(ToolTest):
+    def test_means_over_a_radius(self):
+        """Of every vertex by all others, in one piece of surface."""
+        self.check(0, CRAMBIN, "--voxel", "1", "--color", "bfactor", "-o", "a.ply")
+        self.check(0, CRAMBIN, "--voxel", "1", "--color", "bfactor", "--smooth-colors", "4", "-o", "b.ply")
+        names, rough, triangles = read_ply((self.folder / "a.ply").read_bytes())
+        smooth = read_ply((self.folder / "b.ply").read_bytes())[1]
+        column, red = names.index("bfactor"), names.index("red")
+        areas = [0.0] * len(rough)
+        for t in triangles:
+            a, b, c = (rough[v][:3] for v in t)
+            u, v = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
+            area = math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+            for corner in t:
+                areas[corner] += area / 6
+        for k in range(0, len(rough), 97):
+            weights = [a * min(max((4 - math.dist(v[:3], rough[k][:3])) / a ** 0.5 + 0.5, 0), 1) for a, v in zip(areas, rough)]
+            mean = sum(w * v[column] for w, v in zip(weights, rough)) / sum(weights)
+            self.assertAlmostEqual(smooth[k][column], mean, 4)
+        self.assertNotEqual([v[red:red + 3] for v in rough], [v[red:red + 3] for v in smooth])
+
+    def test_refused(self):
+        for words, says in ((["0.4"], "0.5 to 20"), (["3", "--flat-values"], "means over the surface are at vertices"),
+                            (["3", "--fields", "Cd", "-o", "a.vdb"], "means over the surface are at vertices"),
+                            (["3", "--group-by", "chain", "--split", "group"], "they are of one mesh"),
+                            (["3", "--memory", "1M"], "they are of one mesh")):
+            self.check(2, CRAMBIN, "--voxel", "1", "--color", "bfactor", "--smooth-colors", *words, "-o", "a.ply", says=says)
+        self.check(0, CRAMBIN, "--voxel", "1", "--smooth-colors", "3", "-o", "b.ply", says="--smooth-colors is for --color by a value or a curvature")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -337,7 +337,8 @@ void completeAreas(CommandLine& call)
     if (!call.has("surface") && (!tables.empty() || call.options.interfaces)) {
         // In the field, areas of residues and of interfaces are those of this surface.
         call.options.areasOf = SurfaceKind::SolventAccessible;
-        if (call.writesOnly(Areas | Shares)) call.options.kind = SurfaceKind::SolventAccessible;
+        if (call.writesOnly(Areas | Shares) && !call.options.patches)
+            call.options.kind = SurfaceKind::SolventAccessible;
     }
     call.options.pockets |= call.showsPockets() || call.writes(Shares);
     call.options.grid = !asksForNumbers(call);

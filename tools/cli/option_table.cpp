@@ -310,14 +310,16 @@ OptionGroup resolutionOptions()
 std::vector<ColorBy> storableColors()
 {
     std::vector<ColorBy> colors = completeColors();
-    colors.erase(std::remove(colors.begin(), colors.end(), ColorBy::Pocket), colors.end());
+    for (const ColorBy found : {ColorBy::Pocket, ColorBy::Patch}) // on the atoms
+        colors.erase(std::remove(colors.begin(), colors.end(), found), colors.end());
     return colors;
 }
 
 Values storableColorHelp()
 {
     Values words = colorHelp();
-    words.erase(std::remove(words.begin(), words.end(), nameOf(ColorBy::Pocket)), words.end());
+    for (const ColorBy found : {ColorBy::Pocket, ColorBy::Patch})
+        words.erase(std::remove(words.begin(), words.end(), nameOf(found)), words.end());
     return words;
 }
 
@@ -335,8 +337,9 @@ OptionGroup colorOptions()
     return {"Colours",
             {setting("color", surfaces), of(Convert, shown), setting("range", surfaces | Convert),
              setting("palette", surfaces | Convert), setting("value-of", surfaces),
-             setting("flat-values", surfaces), setting("potential-offset", surfaces),
-             setting("plain-color", wholes | Convert), setting("sharp-colors", Build)},
+             setting("flat-values", surfaces), setting("smooth-colors", wholes),
+             setting("potential-offset", surfaces), setting("plain-color", wholes | Convert),
+             setting("sharp-colors", Build)},
             {{"vdb_molsurf 4hhb.cif.gz --color chain -o chains.png", "a colour for each chain"},
              {"vdb_molsurf 1ubq.pdb --color bfactor --range 0,40 -o b.glb",
               "B factors from 0 to 40 Å^2"}}};
@@ -368,7 +371,7 @@ OptionGroup areaOptions()
                  SettingType::List,
                  "LIST",
                  "tables for the report, by commas: atoms, residues,\ncontacts, interfaces, "
-                 "pockets,\npore, tunnels, forces",
+                 "pockets, patches,\npore, tunnels, forces",
                  "",
                  areaTables()};
     areas.set = [](CommandLine& call, const Values& values) {
@@ -379,8 +382,11 @@ OptionGroup areaOptions()
                            didYouMean(table, areaTables()));
     };
     return {"Areas",
-            {of(wholes, shownIn(Numbers, areas)), shownIn(0, setting("contacts", wholes))},
-            {{"vdb_molsurf 1ubq.pdb -o 1ubq.residues.csv", "accessible area of each residue"},
+            {of(wholes, shownIn(Numbers, areas)), shownIn(0, setting("contacts", wholes)),
+             setting("patches", wholes)},
+            {{"vdb_molsurf 1ubq.pdb --patches \"hydrophobicity>0\" -o 1ubq.patches.csv",
+              "connected hydrophobic parts of the surface"},
+             {"vdb_molsurf 1ubq.pdb -o 1ubq.residues.csv", "accessible area of each residue"},
              {"vdb_molsurf 4hhb.cif.gz -o 4hhb.contacts.csv --contacts chain",
               "contact areas between chains"}}};
 }

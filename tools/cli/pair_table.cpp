@@ -43,10 +43,11 @@ std::vector<Pair> assemblyPairs()
                     }};
     };
     const auto ofGroups = [](const char* what) {
-        return Pair{what, Needs, {"groups", "group-by"}, "", [](const CommandLine& call) {
-                        const bool later = call.outputs.empty() && !call.dryRun;
-                        return later || call.labels.groupBy || call.verb == Convert;
-                    }};
+        return Pair{
+            what, Needs, {"groups", "group-by", "color=groups"}, "", [](const CommandLine& call) {
+                const bool later = call.outputs.empty() && !call.dryRun;
+                return later || call.labels.groupBy || call.verb == Convert;
+            }};
     };
     return {{"weld", Needs, {"by-symmetry"}},
             {"weld", Excludes, {"sharp-colors"}},
@@ -56,12 +57,12 @@ std::vector<Pair> assemblyPairs()
             {"instances",
              Excludes,
              {"split", "surface-of", "interfaces", "frames", "trajectory", "memory", "center",
-              "color=radius", "color=potential", "color=pocket", "show=pockets", "pockets", "pore",
-              "tunnels-from"}},
+              "color=radius", "color=potential", "color=pocket", "show=pockets", "pockets",
+              "patches", "pore", "tunnels-from"}},
             {"by-symmetry",
              Excludes,
-             {"pockets", "color=pocket", "show=pockets", "pore", "tunnels-from", "frames",
-              "trajectory", "memory", "dry-run", "center", "color=potential"}},
+             {"pockets", "color=pocket", "show=pockets", "patches", "pore", "tunnels-from",
+              "frames", "trajectory", "memory", "dry-run", "center", "color=potential"}},
             {holds::Content(anyGrids | Volume),
              Excludes,
              {"by-symmetry"},
@@ -102,7 +103,19 @@ std::vector<Pair> areaPairs()
     unit.unless = hasAreasInClosedForm;
     const std::vector<Thing> forces = {{Areas, "forces", ofForces}, {"areas=forces", ofForces}};
     const auto rests = [](const CommandLine& call) { return restsInClosedForm(call.options); };
+    const auto patches = [](const Thing& thing) {
+        return Pair{
+            thing, Needs, {"patches"}, " [hint: --patches 'hydrophobicity>0', for example]"};
+    };
     return {{"instances", Excludes, forces, " [hint: without --instances]"},
+            patches({Areas, "patches"}),
+            patches("areas=patches"),
+            patches("color=patch"),
+            {"patches",
+             IsFor,
+             {{Areas, "patches"}, "areas=patches", "color=patch"},
+             ".patches.csv, --areas patches and --color patch"},
+            {"patches", Excludes, {"split", "surface-of", "memory"}, ": they are of one mesh"},
             areasWithout("coarse", " [hint: a run without --coarse]"),
             areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),
             areasWithout("surface-of", " [hint: a run without --surface-of]"),
@@ -162,13 +175,9 @@ std::vector<Pair> pocketPairs()
     return pairs;
 }
 
-std::vector<Pair> surfacePairs()
+/// Rows of how values are shown.
+std::vector<Pair> valuePairs()
 {
-    const auto unlessAll = [](const CommandLine& call) {
-        const auto& rules = call.atoms.resolutions;
-        return std::none_of(rules.begin(), rules.end(),
-                            [](const ResolutionRule& rule) { return rule.select.empty(); });
-    };
     const auto ofValues = [](const char* option) {
         return Pair{
             option, IsFor, {}, "--color by a value or a curvature", [](const CommandLine& call) {
@@ -177,8 +186,43 @@ std::vector<Pair> surfacePairs()
                        (call.verb == Convert && by == ColorBy::Nothing);
             }};
     };
+    Pair smooth = ofValues("smooth-colors");
+    smooth.others = {"patches"};
+    smooth.why = "--color by a value or a curvature, and --patches";
     const auto ofAtomValues = [](const CommandLine& call) {
         return call.labels.valueBy && !call.labels.valueBy->byPoint();
+    };
+    return {ofValues("range"),
+            ofValues("palette"),
+            smooth,
+            {"smooth-colors",
+             Excludes,
+             {"flat-values", "fields=cd", "fields=value"},
+             ": means over the surface are at vertices"},
+            {"smooth-colors",
+             Excludes,
+             {"split", "surface-of", "instances", "by-symmetry", "memory"},
+             ": they are of one mesh"},
+            {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
+            {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
+            {"potential-offset", IsFor, {"color=potential"}},
+            {"sharp-colors",
+             IsFor,
+             {},
+             "--color in flat colours, as chain or element",
+             [](const CommandLine& call) {
+                 const bool blended =
+                     call.options.color == ColorBy::Value && !call.labels.coloring.flat;
+                 return !blended && kindOf(call.options.color).hasBorders != nullptr;
+             }}};
+}
+
+std::vector<Pair> surfacePairs()
+{
+    const auto unlessAll = [](const CommandLine& call) {
+        const auto& rules = call.atoms.resolutions;
+        return std::none_of(rules.begin(), rules.end(),
+                            [](const ResolutionRule& rule) { return rule.select.empty(); });
     };
     return {{"fog-density", Needs, {"for"}},
             {"match=ses",
@@ -204,20 +248,6 @@ std::vector<Pair> surfacePairs()
                         call.options.color != ColorBy::Nothing; // --for chooses colours
              }},
             {"show-behind", IsFor, {"opacity"}},
-            ofValues("range"),
-            ofValues("palette"),
-            {"value-of", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
-            {"flat-values", IsFor, {}, "--color by a value of atoms, as bfactor", ofAtomValues},
-            {"potential-offset", IsFor, {"color=potential"}},
-            {"sharp-colors",
-             IsFor,
-             {},
-             "--color in flat colours, as chain or element",
-             [](const CommandLine& call) {
-                 const bool blended =
-                     call.options.color == ColorBy::Value && !call.labels.coloring.flat;
-                 return !blended && kindOf(call.options.color).hasBorders != nullptr;
-             }},
             {"sharp-colors",
              IsFor,
              {},
@@ -381,7 +411,7 @@ const std::vector<Pair>& pairTable()
     static const std::vector<Pair> all = [] {
         std::vector<Pair> rows;
         for (auto* more : {runPairs, boxPairs, superposePairs, assemblyPairs, areaPairs, meshPairs,
-                           pocketPairs, surfacePairs})
+                           pocketPairs, surfacePairs, valuePairs})
             for (Pair& row : more()) rows.push_back(std::move(row));
         return rows;
     }();

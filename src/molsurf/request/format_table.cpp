@@ -48,8 +48,9 @@ using namespace holds;
 
 const std::vector<std::string>& areaTables()
 {
-    static const std::vector<std::string> all = {"atoms",   "residues", "contacts", "interfaces",
-                                                 "pockets", "pore",     "tunnels",  "forces"};
+    static const std::vector<std::string> all = {"atoms",      "residues", "contacts",
+                                                 "interfaces", "pockets",  "patches",
+                                                 "pore",       "tunnels",  "forces"};
     return all;
 }
 
@@ -80,6 +81,11 @@ Table areaTable(const std::string& name, const Request& request, const BallSet& 
     if (name == "residues") table = residueTable(atoms, probeOf(shown), result);
     if (name == "contacts") table = contactTable(atoms, request.contacts, result);
     if (name == "interfaces") table = interfaceTable(atoms, result.report);
+    if (name == "patches") {
+        table = result.report.patches->table(atoms);
+        addOrigin(atoms, nameOf(request.options.kind), probeOf(request.options), table);
+        return table;
+    }
     if (name == "pockets") return result.report.pockets->table(atoms);
     if (name == "pore") return result.report.pore.value_or(Report::Pore()).table(atoms);
     if (name == "tunnels") return result.report.tunnels.value_or(Report::Tunnels()).table(atoms);
@@ -373,6 +379,7 @@ std::vector<Format> areaFormats()
         {"contacts.csv", built, Areas | AllFrames, ofAreas, "contacts", writeAreaTable},
         {"interfaces.csv", built, Areas | AllFrames, ofAreas, "interfaces", writeAreaTable},
         {"pockets.csv", built, Areas | AllFrames, ofAreas, "pockets", writeAreaTable},
+        {"patches.csv", built, Areas | AllFrames, "", "patches", writeAreaTable},
         {"pore.csv", built, Areas | AllFrames, ofAreas, "pore", writeAreaTable},
         {"tunnels.csv", built, Areas | AllFrames, ofAreas, "tunnels", writeAreaTable},
         {"forces.csv", built, Areas | AllFrames, "forces of atoms", "forces", writeAreaTable},

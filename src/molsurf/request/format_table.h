@@ -39,8 +39,8 @@ std::string filesOf(unsigned verb);
 /// ".vdb, .ply and .json": the formats that hold one of some things and that some verbs write.
 std::string endingsOf(unsigned holds, unsigned verbs, const char* last = " and ");
 
-/// The tables of areas: "atoms", "residues", "contacts", "interfaces", "pockets", "pore",
-/// "tunnels", "forces".
+/// The tables of areas: "atoms", "residues", "contacts", "interfaces", "pockets", "patches",
+/// "pore", "tunnels", "forces".
 const std::vector<std::string>& areaTables();
 
 /// A table of areas.

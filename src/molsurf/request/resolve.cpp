@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/request/resolve.h"
 
+#include "molsurf/error.h"
 #include "molsurf/kernel/flow/evolve.h"
 #include "molsurf/kernel/pipeline/surface_kind.h"
+#include "molsurf/molecule/selection/groups.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/set_value.h"
 
@@ -23,12 +25,34 @@ std::vector<SurfaceKind> kindsOf(const SurfaceOptions& options, std::vector<Surf
     return more;
 }
 
+/// Puts the atoms of a group in the place of its name.
+/// @param[in,out] select  of a resolution
+void resolveName(const LabelOptions& labels, std::string& select)
+{
+    for (const auto* rules : {&labels.groups, &labels.colorGroups}) {
+        for (const GroupRule& rule : *rules) {
+            if (rule.name != select) continue;
+            if (!rule.copies.all())
+                throw Error(ErrorKind::Usage,
+                            "`resolution`: expected a group of all copies, got '" + select +
+                                "', which has some");
+            select = rule.select;
+            return;
+        }
+    }
+}
+
 } // namespace
 
 void resolveGroups(Settings& settings, bool coloredGrid)
 {
     LabelOptions& labels = settings.labels;
     SurfaceOptions& options = settings.options;
+    if (!settings.colorGroupsFile.empty())
+        labels.colorGroups = readGroups(settings.colorGroupsFile, settings.atoms.limits.maxInput);
+    const bool parts = options.interfaces || options.ofParts();
+    if (parts && labels.groups.empty() && !labels.groupBy) labels.groups = labels.colorGroups;
+    for (ResolutionRule& rule : settings.atoms.resolutions) resolveName(labels, rule.select);
     if (options.interfaces && labels.groups.empty() && !labels.groupBy && !settings.colorGroups)
         labels.groupBy = GroupBy{GroupBy::Kind::Chain};
     const bool copies = settings.colorsCopies();

@@ -15,7 +15,9 @@ namespace molsurf
 {
 
 /// Gives what needs groups or colours those that it has by default: interfaces are between chains,
-/// colours by copy, entity or class are those of groups, and a grid of colours is by chain.
+/// colours by copy, entity or class are those of groups, and a grid of colours is by chain. Reads
+/// the groups that are for colours; where no others are given parts and interfaces are of them. In
+/// resolutions selections take the place of names of groups.
 /// @param[in] coloredGrid  whether files have a grid of colours, named in `fields` or not
 void resolveGroups(Settings& settings, bool coloredGrid = false);
 

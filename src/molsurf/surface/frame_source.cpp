@@ -91,7 +91,8 @@ FrameSource::Choice FrameSource::add(const Settings& asked, double probe)
     chosen.first = load(0, chosen);
     std::vector<std::string> expressions = selectionsOf(asked.places);
     expressions.push_back(asked.atoms.select);
-    for (const GroupRule& rule : asked.labels.groups) expressions.push_back(rule.select);
+    for (const auto* groups : {&asked.labels.groups, &asked.labels.colorGroups})
+        for (const GroupRule& rule : *groups) expressions.push_back(rule.select);
     for (const ResolutionRule& rule : asked.atoms.resolutions) expressions.push_back(rule.select);
     for (const CoarseRule& rule : asked.atoms.coarse) expressions.push_back(rule.select);
     selections_.keep(expressions, modelOf(0));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/label_surface.h"
 
+#include "molsurf/analysis/measures/smooth_values.h"
 #include "molsurf/kernel/balls/nearest_ball.h"
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/show/color/curvature_colors.h"
@@ -124,6 +125,32 @@ void reportGroups(const BallSet& atoms, const SurfaceOptions& options, const Own
     }
 }
 
+/// Smooths the curvature that colours show.
+void smoothCurvature(const SurfaceOptions& options, const Progress& progress, Mesh& mesh)
+{
+    const char* shown = curvatureNameOf(options.color);
+    if (!shown || options.smoothColors == 0.0) return;
+    for (Attribute<float>& scalar : mesh.scalars)
+        if (scalar.name == shown) smoothValues(mesh, options.smoothColors, progress, scalar.values);
+}
+
+/// Adds the values that colours show to the vertices, and colours those that blend.
+void colorByValue(const BallSet& atoms, const SurfaceOptions& options, const Labels& nearest,
+                  double reach, const Progress& progress, Mesh& mesh)
+{
+    const BallValues& values = *atoms.labels->values;
+    const PointValues points(atoms, outwardOf(atoms.coloring, options));
+    std::vector<PointValue> found = vertexValues(points, values, nearest, reach, progress, mesh);
+    if (options.smoothColors > 0.0) {
+        std::vector<float> means;
+        for (const PointValue& value : found) means.push_back(value.known());
+        smoothValues(mesh, options.smoothColors, progress, means);
+        for (std::size_t v = 0; v < found.size(); ++v)
+            if (std::isfinite(means[v])) found[v].value = means[v];
+    }
+    addValues(values, points, found, mesh);
+}
+
 /// Adds labels, colours and the grids of balls to the result, each of them if it is asked for.
 /// @param[in] known  as of labelSurface()
 Owned label(const BallSet& atoms, const SurfaceOptions& options, std::vector<double> known,
@@ -131,6 +158,7 @@ Owned label(const BallSet& atoms, const SurfaceOptions& options, std::vector<dou
 {
     Mesh& mesh = result.mesh;
     const bool grouped = atoms.labels && !atoms.labels->groups.empty();
+    smoothCurvature(options, progress, mesh);
     colorByCurvature(options.color, atoms.coloring, mesh);
     const bool colored = options.color != ColorBy::Nothing && mesh.colors.empty();
     Owned owned{{}, std::move(known)};
@@ -154,7 +182,7 @@ Owned label(const BallSet& atoms, const SurfaceOptions& options, std::vector<dou
     for (std::string& warning : colorWarnings(atoms, options.color))
         result.report.warnings.push_back(std::move(warning));
     if (options.color == ColorBy::Value && atoms.labels && atoms.labels->values) {
-        addValues(atoms, outwardOf(atoms.coloring, options), nearest, reach, progress, mesh);
+        colorByValue(atoms, options, nearest, reach, progress, mesh);
         const std::vector<float>& values = mesh.scalars.back().values;
         if (std::none_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
             result.report.warnings.push_back(atoms.labels->values->title +

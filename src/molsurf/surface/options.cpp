@@ -67,6 +67,9 @@ void checkOptions(const SurfaceOptions& options)
           "`adapt`", "0.001 to 1 Å", options.meshError);
     if (options.meshError > 0.0 && options.meshEdge == 0.0)
         throw Error(ErrorKind::Usage, "`adapt`: expected `remesh` too, the longest edge");
+    const double smooth = options.smoothColors;
+    check(smooth == 0.0 || (smooth >= 0.5 && smooth <= 20.0), "`smoothColors`", "0.5 to 20 Å",
+          smooth);
     checkPockets(options);
     for (const std::string& field : options.fields) {
         const FieldRow* row = findField(field);

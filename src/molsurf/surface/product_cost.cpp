@@ -38,6 +38,14 @@ constexpr double secondsOfHull = 7e-6; // for each Å of the large probe above 4
 constexpr double bytesOfGraph = 1.1e3, bytesOfRooms = 2.8e3; // a ball; at 1 Å
 constexpr double bytesOfHull = 95.0; // for each Å^2 of that, of balls^0.83: the outside counts
 
+// measured: build --patches hydrophobicity>0 and mean-curvature<-0.1 of 4AT1
+constexpr double secondsPerPatched = 4e-7, bytesPerPatched = 10.0; // a voxel
+
+// measured: build --color mean-curvature --smooth-colors 1 to 20 of 4AT1, voxels of 0.5 and 1 Å
+constexpr double secondsPerMean = 7e-7, bytesPerMean = 50.0; // a vertex
+constexpr double secondsPerPairOfMeans = 8e-9;               // of vertices within the radius
+constexpr double verticesPerVoxel = 1.5;                     // of h^2 of a surface
+
 // measured: build --pore auto of 1A8O, 4AT1, 1AOI, 1IGY, 2BUK
 constexpr double secondsOfPore = 1.2e-4, bytesOfPore = 4.3e3; // a ball
 // measured: --tunnels-from of 1ACJ and 4AT1, --tunnel-probe 0.3 to 1.4
@@ -200,6 +208,19 @@ Cost costOfPockets(const BallSet&, const SurfaceOptions& options, const SurfaceS
         n * (secondsOfGraph + secondsOfRooms / (h * h) + secondsOfHull * wider * std::pow(h, -2.3)),
         n * (bytesOfGraph + bytesOfRooms / (h * h)) +
             bytesOfHull * std::pow(n, 0.83) * wider * wider * std::pow(h, -2.7)};
+}
+
+Cost costOfPatches(const BallSet&, const SurfaceOptions&, const SurfaceSize& size)
+{
+    return {secondsPerPatched * size.voxels, bytesPerPatched * size.voxels};
+}
+
+Cost costOfSmoothing(const BallSet&, const SurfaceOptions& options, const SurfaceSize& size)
+{
+    const double edge = options.meshEdge > 0.0 ? options.meshEdge : options.voxel;
+    const double density = verticesPerVoxel / (edge * edge), vertices = density * size.area;
+    const double within = M_PI * options.smoothColors * options.smoothColors * density;
+    return {(secondsPerMean + secondsPerPairOfMeans * within) * vertices, bytesPerMean * vertices};
 }
 
 Cost costOfPore(const BallSet&, const SurfaceOptions&, const SurfaceSize& size)

@@ -39,6 +39,8 @@ double keptBytes(const SurfaceSize& size);
 
 // Of products, each by its own lengths.
 Cost costOfPockets(const BallSet& atoms, const SurfaceOptions& options, const SurfaceSize& size);
+Cost costOfPatches(const BallSet& atoms, const SurfaceOptions& options, const SurfaceSize& size);
+Cost costOfSmoothing(const BallSet& atoms, const SurfaceOptions& options, const SurfaceSize& size);
 Cost costOfPore(const BallSet& atoms, const SurfaceOptions& options, const SurfaceSize& size);
 Cost costOfTunnels(const BallSet& atoms, const SurfaceOptions& options, const SurfaceSize& size);
 Cost costOfInterfaces(const BallSet& atoms, const SurfaceOptions& options, const SurfaceSize& size);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/surface/product_table.h"
 
+#include "molsurf/analysis/measures/polarity.h"
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/core/quiet_progress.h"
@@ -11,8 +12,10 @@
 #include "molsurf/molecule/selection/subset.h"
 #include "molsurf/show/color/color_table.h"
 #include "molsurf/show/color/curvature_colors.h"
+#include "molsurf/show/color/value_colors.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/interfaces.h"
+#include "molsurf/surface/patches.h"
 #include "molsurf/surface/pockets.h"
 #include "molsurf/surface/pore.h"
 #include "molsurf/surface/tunnels.h"
@@ -42,6 +45,7 @@ void needGroups(const BallSet& atoms, const Options&)
         throw Error(ErrorKind::Input, "there are no groups to surface alone");
 }
 
+constexpr char ofPatches[] = "`patches`", ofSmoothing[] = "`smoothColors`";
 constexpr char ofPore[] = "`pore`", ofTunnels[] = "`tunnelsFrom`", ofMeasures[] = "`measures`";
 
 /// Checks that the balls and their mesh are the whole, which ways through the void and measures are
@@ -59,6 +63,43 @@ void needOnePrototype(const BallSet& atoms, const Options&)
 {
     if (ofPrototypes(atoms))
         throw Error(ErrorKind::Usage, "`pockets`: expected one surface, and not `instances`");
+}
+
+/// Checks that the mesh is that of the whole by one surface.
+template<const auto& option>
+void needOneMesh(const BallSet& atoms, const Options& options)
+{
+    if (!atoms.placement.isWhole() || options.ofParts())
+        throw Error(ErrorKind::Usage, std::string(option) +
+                                          ": expected one surface, and not `split`, `surfaceOf`, "
+                                          "`instances` or `bySymmetry`");
+}
+
+/// Colours of one ball each, and grids, show no means over the mesh.
+void needBlended(const BallSet& atoms, const Options& options)
+{
+    needOneMesh<ofSmoothing>(atoms, options);
+    const bool byValue = options.color == ColorBy::Value && atoms.labels && atoms.labels->values;
+    if (byValue && isFlat(*atoms.labels->values))
+        throw Error(ErrorKind::Usage, std::string(ofSmoothing) +
+                                          ": expected values that blend, and not `flatValues` or "
+                                          "colours in steps");
+    if (byValue || kindOf(options.color).ofCurvature)
+        for (const char* field : {"Cd", "value"})
+            if (hasField(options.fields, field))
+                throw Error(ErrorKind::Usage,
+                            std::string(ofSmoothing) +
+                                ": expected colours of a mesh, and not `fields` " + field);
+}
+
+void needPatches(const BallSet& atoms, const Options& options)
+{
+    if (!options.patches) throw Error(ErrorKind::Usage, "`color` patch: expected `patches` too");
+    needOneMesh<ofPatches>(atoms, options);
+    const bool ofBalls = options.patches->by == ColorBy::Value;
+    if (ofBalls && !(atoms.labels && atoms.labels->patchValues))
+        throw Error(ErrorKind::Input,
+                    "`patches`: expected values of the atoms, as of LabelOptions::patchBy");
 }
 
 /// The surface that areas are of.
@@ -96,6 +137,11 @@ void makeAreas(MadeRun& run)
     const bool same = run.areasOf.kind == run.options.kind && !run.ballAreas.empty();
     run.result.ballAreas =
         same ? std::move(run.ballAreas) : areasApart(run.atoms, run.areasOf, run.progress);
+    if (!run.atoms.names) return;
+    const auto [polar, apolar] = areasByPolarity(run.atoms, run.result.ballAreas);
+    const double times = double(run.atoms.placement.order());
+    run.result.report.polarArea = times * polar;
+    run.result.report.apolarArea = times * apolar;
 }
 
 void nameAreas(MadeRun& run)
@@ -107,6 +153,11 @@ void makeInterfaces(MadeRun& run)
 {
     measureInterfaces(run.atoms, run.areasOf, run.options.ballAreas, run.progress,
                       run.result.report);
+}
+
+void makePatches(MadeRun& run)
+{
+    addPatches(run.atoms, run.options, run.progress, run.result);
 }
 
 /// The grid of colours by curvature, and that of the curvature itself where it was asked for.
@@ -221,6 +272,12 @@ const std::vector<ProductRow>& productTable()
          [](auto&, auto& o) { return kindOf(o.color).ofCurvature; }, nullptr, makeCurvatureColors},
         {"`color` by value or pocket", WithoutMesh,
          [](auto&, auto& o) { return o.color == ColorBy::Value || o.color == ColorBy::Pocket; }},
+        {ofSmoothing, InBricks | BySymmetry | InClosedForm | WithoutMesh,
+         [](auto&, auto& o) { return o.smoothColors > 0.0; }, needBlended, nullptr,
+         costOfSmoothing},
+        {ofPatches, InBricks | BySymmetry | InClosedForm | WithoutMesh,
+         [](auto&, auto& o) { return o.patches || o.color == ColorBy::Patch; }, needPatches,
+         makePatches, costOfPatches},
         {"areas", always, [](auto&, auto& o) { return o.ballAreas || o.contacts || o.interfaces; },
          nullptr, nameAreas},
         {"`interfaces`", InBricks | WithoutMesh, [](auto&, auto& o) { return o.interfaces; },

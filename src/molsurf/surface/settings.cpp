@@ -8,6 +8,7 @@
 #include "molsurf/molecule/selection/groups.h"
 #include "molsurf/molecule/selection/radii.h"
 #include "molsurf/show/color/color_map.h"
+#include "molsurf/show/color/color_table.h"
 #include "molsurf/surface/field_table.h"
 #include "molsurf/surface/option_row.h"
 #include "molsurf/surface/product_table.h"
@@ -431,7 +432,7 @@ std::vector<Setting> resolutionSettings()
     Setting resolution =
         rulesRow<Settings>({"resolution", "[SEL=]D",
                             "blur to D [Å], 1 to 50, all atoms or those of a\n"
-                            "selection; repeats, later ones win"},
+                            "selection or a group; repeats, later ones win"},
                            [](Settings& s, const std::string& value) {
                                s.atoms.resolutions.push_back(parseResolution(value));
                            });
@@ -471,6 +472,9 @@ std::vector<Setting> resolutionSettings()
 /// The words of groups that are made to be coloured.
 const Values coloredGroups = {"copy", "entity", "class"};
 
+/// The beginning of colours by the groups of a file.
+constexpr char groupsStart[] = "groups=";
+
 /// The beginnings of colours by the values of a file.
 Values colorFiles()
 {
@@ -487,6 +491,7 @@ Values colorWords()
     words.insert(words.end(), coloredGroups.begin(), coloredGroups.end());
     words.insert(words.end(), valueWords().begin(), valueWords().begin() + valuesWithoutFile);
     for (const std::string& start : colorFiles()) words.push_back(start + "FILE");
+    words.push_back(groupsStart + std::string("FILE"));
     words.push_back("residue-type");
     words.push_back("plain=#RRGGBB");
     return words;
@@ -517,12 +522,18 @@ void setColor(Settings& s, const Values& values)
     const std::string typed = lowered(values.back());
     const std::string word = typed == "residue-type" ? "residue" : typed;
     s.colorGroups.reset();
+    s.colorGroupsFile.clear();
     s.labels.plainColor.reset();
     s.labels.valueBy = parseValueBy(values.back());
     s.options.color = s.labels.valueBy ? ColorBy::Value : ColorBy::Nothing;
     if (s.labels.valueBy) return;
     if (std::count(coloredGroups.begin(), coloredGroups.end(), word)) {
         s.colorGroups = parseGroupBy(word);
+        return;
+    }
+    if (word.rfind(groupsStart, 0) == 0 && word != groupsStart) {
+        s.colorGroupsFile = values.back().substr(std::string(groupsStart).size());
+        s.options.color = ColorBy::FileGroup;
         return;
     }
     if (word.rfind("plain=", 0) == 0) {
@@ -548,21 +559,75 @@ Setting colorSetting()
     words.insert(words.end(), coloredGroups.begin(), coloredGroups.end());
     for (const std::string& start : colorFiles()) values.push_back(start + "FILE");
     const std::string text = "colours of the mesh and the grid Cd: " + joinWords(words, ", ") +
-                             ", plain=#RRGGBB; by value: " + joinWords(values, ", ") +
+                             ", groups=FILE, plain=#RRGGBB; by value: " + joinWords(values, ", ") +
                              "; potentials are .dx";
     Setting color{"color", SettingType::Text, "WORD", wrapped(text, helpWidth),
                   "none",  colorWords()};
     color.set = setColor;
     color.get = [](const Settings& s) -> std::string {
         if (s.colorGroups) return textOf(*s.colorGroups);
+        if (!s.colorGroupsFile.empty()) return groupsStart + s.colorGroupsFile;
         return s.labels.valueBy ? textOf(*s.labels.valueBy) : nameOf(s.options.color);
     };
     color.file = [](const std::string& value) {
-        for (const std::string& start : colorFiles())
+        Values starts = colorFiles();
+        starts.push_back(groupsStart);
+        for (const std::string& start : starts)
             if (lowered(value).rfind(start, 0) == 0) return start.size();
         return std::string::npos;
     };
     return color;
+}
+
+/// The words of values that patches may be of, the curvatures first.
+Values patchWords()
+{
+    Values words;
+    for (const ColorBy by : completeColors())
+        if (kindOf(by).ofCurvature) words.push_back(nameOf(by));
+    words.insert(words.end(), valueWords().begin(), valueWords().begin() + valuesWithoutFile);
+    for (const std::string& start : colorFiles()) words.push_back(start + "FILE");
+    return words;
+}
+
+/// VALUE>LEVEL or VALUE<LEVEL.
+void setPatches(Settings& s, const Values& values)
+{
+    const std::string& text = values.back();
+    const std::size_t side = std::min(text.find_last_of("<>"), text.size());
+    const std::string word = text.substr(0, side), known = lowered(word);
+    Products::PatchRule rule;
+    if (side == text.size() || !parseWhole(text.substr(side + 1), rule.level) ||
+        !std::isfinite(rule.level))
+        wrongValue("patches", "VALUE>NUMBER or VALUE<NUMBER", text, " [hint: hydrophobicity>0]");
+    rule.above = text[side] == '>';
+    s.labels.patchBy = parseValueBy(word, "patches");
+    const Values words = patchWords();
+    for (const ColorBy by : completeColors())
+        if (kindOf(by).ofCurvature && known == nameOf(by)) rule.by = by;
+    if (rule.by == ColorBy::Value && !s.labels.patchBy)
+        wrongValue("patches", joinWords(words, ", ") + ", and > or < with a number", text,
+                   didYouMean(known, words));
+    s.options.patches = rule;
+}
+
+Setting patchSetting()
+{
+    Setting row{"patches", SettingType::Text, "VALUE>T",
+                "connected pieces of the surface where a value of `color`,\n"
+                "as hydrophobicity or mean-curvature, is above T, or by <\n"
+                "below it: for .patches.csv and `color` patch",
+                "none"};
+    row.set = setPatches;
+    row.get = [](const Settings& s) -> std::string {
+        const std::optional<Products::PatchRule>& rule = s.options.patches;
+        if (!rule) return "none";
+        return (s.labels.patchBy ? textOf(*s.labels.patchBy) : nameOf(rule->by)) +
+               (rule->above ? ">" : "<") + shortest(rule->level);
+    };
+    for (const std::string& word : patchWords()) row.words.push_back(word + ">");
+    row.of = SettingOf::Molecule;
+    return row;
 }
 
 void setRange(Settings& s, const Values& values)
@@ -646,6 +711,10 @@ std::vector<Setting> coloringSettings()
              MOLSURF_OF(labels.coloring.flat)),
         offset};
     for (Setting& row : rows) row.of = SettingOf::Molecule;
+    rows.push_back(optionalNumber("smooth-colors", "D",
+                                  "vertices have the mean of values and curvatures over the\n"
+                                  "surface within D [Å], for colours and patches",
+                                  "0.5 to 20 Å", {0.5, 20.0}, MOLSURF_OF(options.smoothColors)));
     return rows;
 }
 
@@ -686,11 +755,14 @@ std::vector<Setting> groupSettings()
     };
     groupBy.words = {"chain", "entity", "class", "copy"};
     groupBy.of = SettingOf::Molecule;
-    return {groupBy, split, surfaceOf,
+    return {groupBy,
+            split,
+            surfaceOf,
             with(flag("interfaces", "buried areas between groups, for the report",
                       MOLSURF_OF(options.interfaces)),
                  [](Setting& row) { row.get = nullptr; }),
-            colorSetting()};
+            colorSetting(),
+            patchSetting()};
 }
 
 std::vector<Setting> pocketSettings()

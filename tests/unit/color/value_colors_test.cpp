@@ -125,7 +125,8 @@ TEST_F(BlendTest, FadesToNoValueWhereBallsHaveNone)
     mesh.positions = {Vec3f(0.7f, 1.6f, 0), Vec3f(0.8f, 1.6f, 0)};
     mesh.normals.resize(2);
     mesh.colors.resize(2);
-    addValues(atoms, 1.4, {0, 1}, 2.0, Progress(), mesh);
+    const BallValues& own = *atoms.labels->values;
+    addValues(own, values, vertexValues(values, own, {0, 1}, 2.0, Progress(), mesh), mesh);
     EXPECT_EQ(mesh.scalars[0].values[0], 10.0f);
     EXPECT_TRUE(std::isnan(mesh.scalars[0].values[1]));
 }
@@ -137,7 +138,9 @@ TEST_F(BlendTest, FlatValuesAreThoseOfTheBall)
     mesh.positions = {Vec3f(0.7f, 1.6f, 0)};
     mesh.normals.resize(1);
     mesh.colors = {Color{1, 2, 3}};
-    addValues(atoms, 1.4, {0}, 2.0, Progress(), mesh);
+    const PointValues points(atoms, 1.4);
+    const BallValues& own = *atoms.labels->values;
+    addValues(own, points, vertexValues(points, own, {0}, 2.0, Progress(), mesh), mesh);
     EXPECT_EQ(mesh.scalars[0].values[0], 10.0f);
     EXPECT_EQ(mesh.colors[0], (Color{1, 2, 3})); // of its ball, as it was
 }

@@ -46,9 +46,10 @@ TEST(WriteReport, HasTheKeysOfTheContractInItsOrder)
                                  "coarse",     "resolution",     "evolution",
                                  "grid",       "seconds",        "peak_memory_bytes",
                                  "threads",    "groups",         "areas_of",
-                                 "interfaces", "pockets",        "pore",
-                                 "tunnels",    "parts",          "instances",
-                                 "symmetry",   "warnings"}));
+                                 "polar_area", "apolar_area",    "interfaces",
+                                 "pockets",    "pore",           "tunnels",
+                                 "parts",      "instances",      "symmetry",
+                                 "warnings"}));
     Names surface = keys(json["surface"]);
     surface.resize(14); // later keys are additions
     EXPECT_EQ(surface,

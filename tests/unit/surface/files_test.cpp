@@ -150,6 +150,7 @@ TEST(Files, HaveEveryEnding)
     options.voxel = 1.0;
     options.color = ColorBy::Chain;
     options.ballAreas = options.contacts = options.pockets = options.pocketBodies = true;
+    options.patches = {ColorBy::MeanCurvature, true, 0.2};
     const BallSet atoms = readAtoms(dataFile("1crn.pdb"), {}, 1.4);
     const MolecularSurface made = makeSurface(atoms, options);
     const ShownSurface shown{&atoms, &made, &options, ""};

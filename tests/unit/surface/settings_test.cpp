@@ -50,6 +50,7 @@ std::string exampleOf(const Setting& setting)
            : name == "surface-of" ? "core=ses"
            : name == "color"      ? "element"
            : name == "range"      ? "1,2"
+           : name == "patches"    ? "mean-curvature<-0.1"
                                   : "chain";
 }
 
@@ -110,7 +111,7 @@ TEST(Settings, RangesAreThoseThatAreChecked)
         EXPECT_FALSE(allows(setting, setting.low - beyond)) << setting.name;
         EXPECT_FALSE(allows(setting, setting.high + beyond)) << setting.name;
     }
-    EXPECT_EQ(ranges, 15);
+    EXPECT_EQ(ranges, 16);
 }
 
 TEST(Settings, TakeResolutionsFrom1To50)

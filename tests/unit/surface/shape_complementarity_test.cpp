@@ -59,6 +59,20 @@ TEST(Fit, OfTwoBallsIsThatOfTheMiddleCircle)
         EXPECT_NEAR(fit.gapVolume, volume, 1e-5 * volume);
         const double buried = 2.0 * M_PI * R * R * (1.0 - std::cos(most));
         EXPECT_NEAR(fit.gapIndex, volume / buried, 0.01 * volume / buried);
+        // The way from a point of one ball to the other leads to that one's centre, or to the end
+        // of its cap.
+        double contact = 0.0;
+        constexpr int steps = 4000;
+        for (int i = 0; i < steps; ++i) {
+            const double angle = most * (i + 0.5) / steps;
+            const Vec3d x(R * std::sin(angle), 0.0, R * std::cos(angle)), b(0.0, 0.0, apart);
+            Vec3d foot = b + R * (x - b).unit();
+            if (std::acos((b - foot).z() / R) > most)
+                foot = b + R * Vec3d(std::sin(most), 0.0, -std::cos(most));
+            contact += 2.0 * M_PI * R * R * std::sin(angle) * most / steps *
+                       std::exp(-0.5 * (x - foot).lengthSqr());
+        }
+        for (const double one : fit.contact) EXPECT_NEAR(one, contact, 1e-3 * contact) << gap;
     }
 }
 
@@ -73,6 +87,8 @@ TEST(Fit, OfWhatHardlyTouchesIsUnknown)
     EXPECT_TRUE(std::isnan(apart.shape));
     EXPECT_TRUE(std::isnan(apart.gapIndex));
     EXPECT_EQ(apart.gapVolume, 0.0);
+    EXPECT_EQ(apart.contact[0], 0.0);
+    EXPECT_GT(touching.contact[0], 0.0);
 }
 
 // A far ball makes the group one of two, so that its points are sampled: 30 points in an Å^2.
@@ -92,6 +108,11 @@ TEST(Fit, OfTwoSpheresIsThatOfSampledPoints)
             << a << " " << b << " " << apart;
         EXPECT_NEAR(exact.gapVolume, sampled.gapVolume, 1e-6);
         EXPECT_NEAR(exact.gapIndex, sampled.gapIndex, 0.02 * std::abs(sampled.gapIndex));
+        for (std::size_t k = 0; k < 2; ++k) {
+            EXPECT_EQ(exact.contact[k], swapped.contact[1 - k]) << apart;
+            EXPECT_NEAR(exact.contact[k], sampled.contact[k], 0.05 * exact.contact[k] + 0.02)
+                << a << " " << b << " " << apart;
+        }
     };
     check(2.64, 2.64, 3.0); // overlapping
     check(2.64, 2.64, 5.3); // hardly touching

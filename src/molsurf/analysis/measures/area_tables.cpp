@@ -105,6 +105,9 @@ Numbers areasOf(Polarity wanted, const std::vector<Polarity>& classes, const Num
     return out;
 }
 
+/// An atom with less area has none [Å^2]: measureInterfaces() notices no more of areas on meshes.
+constexpr double coveredArea = 0.005;
+
 /// The columns of areas by class.
 constexpr std::array<std::pair<const char*, Polarity>, 2> classColumns = {
     std::pair("polar_area", Polarity::Polar), std::pair("apolar_area", Polarity::Apolar)};
@@ -344,14 +347,16 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     ResidueColumns residues;
     Texts first, second, group;
     Numbers alone, together, buried, area;
-    std::array<Numbers, 4> fits;
+    std::array<Numbers, 6> fits;
     std::array<Numbers, 2> byClass;
+    Counts polarAtoms;
     const std::vector<Polarity> classes = polarityOf(atoms);
     for (const Report::Interface& interface : report.interfaces) {
         // By residue, those of the first group first: the areas apart, and together.
         using Key = std::pair<bool, std::int32_t>;
         std::map<Key, std::pair<double, double>> sums;
         std::map<Key, std::array<double, 2>> classSums;
+        std::map<Key, std::int64_t> covered;
         for (const Report::Interface::Buried& b : interface.buried) {
             const Key key(!b.ofFirst, names.residueOf[b.ball]);
             auto& sum = sums[key];
@@ -360,6 +365,9 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
             for (std::size_t k = 0; k < classColumns.size(); ++k)
                 if (classes[b.ball] == classColumns[k].second)
                     classSums[key][k] += b.alone - b.together;
+            const bool isHydrogen = names.atoms[b.ball].element == 1;
+            covered[key] +=
+                classes[b.ball] == Polarity::Polar && !isHydrogen && b.together < coveredArea;
         }
         for (const auto& [key, sum] : sums) {
             first.push_back(interface.first);
@@ -372,9 +380,10 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
             area.push_back(0.5 * (sum.first - sum.second));
             for (std::size_t k = 0; k < byClass.size(); ++k)
                 byClass[k].push_back(classSums[key][k]);
+            polarAtoms.push_back(covered[key]);
             const Report::Interface::Fit& fit = interface.fit;
-            const std::array<double, 4> row = {fit.shape, fit.distance, fit.gapVolume,
-                                               fit.gapIndex};
+            const std::array<double, 6> row = {fit.shape,    fit.distance,   fit.gapVolume,
+                                               fit.gapIndex, fit.contact[0], fit.contact[1]};
             for (std::size_t k = 0; k < row.size(); ++k) fits[k].push_back(row[k]);
         }
     }
@@ -389,8 +398,10 @@ Table interfaceTable(const BallSet& atoms, const Report& report)
     table.columns.push_back({"area", std::move(area)});
     table.columns.push_back({"buried_polar_area", std::move(byClass[0])});
     table.columns.push_back({"buried_apolar_area", std::move(byClass[1])});
-    constexpr std::array<const char*, 4> ofPairs = {"shape_complementarity", "median_distance_A",
-                                                    "gap_volume", "gap_index_A"};
+    table.columns.push_back({"buried_polar_atoms", std::move(polarAtoms)});
+    constexpr std::array<const char*, 6> ofPairs = {
+        "shape_complementarity", "median_distance_A", "gap_volume",
+        "gap_index_A",           "contact_area_1",    "contact_area_2"};
     for (std::size_t k = 0; k < ofPairs.size(); ++k)
         table.columns.push_back({ofPairs[k], std::move(fits[k])});
     return table;

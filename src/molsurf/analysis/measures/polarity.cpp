@@ -43,4 +43,15 @@ std::vector<Polarity> polarityOf(const BallSet& atoms)
     return out;
 }
 
+std::pair<double, double> areasByPolarity(const BallSet& atoms, const std::vector<double>& areas)
+{
+    const std::vector<Polarity> classes = polarityOf(atoms);
+    double polar = 0.0, apolar = 0.0;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+        if (classes[i] == Polarity::Polar) polar += areas[i];
+        if (classes[i] == Polarity::Apolar) apolar += areas[i];
+    }
+    return {polar, apolar};
+}
+
 } // namespace molsurf

@@ -7,6 +7,7 @@
 #include "molsurf/atoms.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace molsurf
@@ -24,5 +25,9 @@ enum class Polarity : std::uint8_t {
 /// atom of its residue that is nearest to it.
 /// @param[in] atoms  with names
 std::vector<Polarity> polarityOf(const BallSet& atoms);
+
+/// The areas of polar and of apolar atoms.
+/// @param[in] areas  of the first balls
+std::pair<double, double> areasByPolarity(const BallSet& atoms, const std::vector<double>& areas);
 
 } // namespace molsurf

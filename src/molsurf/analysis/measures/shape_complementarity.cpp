@@ -246,6 +246,20 @@ std::pair<double, double> mediansOf(const ExcludedPoints& points, const Excluded
     return {medianOf(std::move(shapes)), medianOf(std::move(distances))};
 }
 
+/// Area of one side's points, times exp(-decay d^2), d being the distance of the nearest of others.
+double contactOf(const ExcludedPoints& points, const ExcludedPoints& others,
+                 const Progress& progress)
+{
+    if (points.empty() || others.empty()) return 0.0;
+    const std::vector<std::ptrdiff_t> nearest = nearestOf(points, others, progress);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3d& other = others[std::size_t(nearest[i])].position;
+        sum += points[i].area * std::exp(-decay * (other - points[i].position).lengthSqr());
+    }
+    return sum;
+}
+
 /// What one of two balls buries of the other's sphere: a cap about the way between their centres.
 struct BuriedCap {
     double radius;  ///< of the sphere [Å]
@@ -275,13 +289,17 @@ double middleOf(std::array<double, size>& values)
     return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// mediansOf() the cap of one ball and that of the other, by rings of equal area.
-std::pair<double, double> mediansOf(const BuriedCap& own, const BuriedCap& other, double apart)
+constexpr std::size_t rings = 128; // of equal area on a cap
+
+/// Calls f(k, shape, square) for the rings of a cap up to an angle: the cosine of their normals
+/// and those of the nearest points of the other's cap up to one, and the squares of the distances.
+/// @param[in] ends  the angles of both
+template<typename F>
+void forEachRing(const BuriedCap& own, const BuriedCap& other, const std::array<double, 2>& ends,
+                 double apart, const F& f)
 {
-    constexpr std::size_t rings = 128;
-    std::array<double, rings> shapes, distances;
-    const double step = (1.0 - std::cos(own.trimmed)) / double(rings);
-    const Vec2d end(std::sin(other.trimmed), std::cos(other.trimmed));
+    const double step = (1.0 - std::cos(ends[0])) / double(rings);
+    const Vec2d end(std::sin(ends[1]), std::cos(ends[1]));
     for (std::size_t k = 0; k < rings; ++k) {
         // In the half plane of the point, the axis leading from the other's centre to this one.
         const double u = 1.0 - (double(k) + 0.5) * step;
@@ -290,11 +308,36 @@ std::pair<double, double> mediansOf(const BuriedCap& own, const BuriedCap& other
         const double length = x.length();
         Vec2d nearest = length > 0.0 ? x / length : end; // a normal of the other sphere
         if (nearest.y() < end.y()) nearest = end;
-        const double square = (x - other.radius * nearest).lengthSqr();
-        shapes[k] = -normal.dot(nearest) * std::exp(-decay * square);
-        distances[k] = std::sqrt(square);
+        f(k, -normal.dot(nearest), (x - other.radius * nearest).lengthSqr());
     }
+}
+
+/// mediansOf() the cap of one ball and that of the other.
+std::pair<double, double> mediansOf(const BuriedCap& own, const BuriedCap& other, double apart)
+{
+    std::array<double, rings> shapes, distances;
+    forEachRing(own, other, {own.trimmed, other.trimmed}, apart,
+                [&](std::size_t k, double shape, double square) {
+                    shapes[k] = shape * std::exp(-decay * square);
+                    distances[k] = std::sqrt(square);
+                });
     return {middleOf(shapes), middleOf(distances)};
+}
+
+/// [Å^2]
+double areaOf(const BuriedCap& cap)
+{
+    return 2.0 * M_PI * cap.radius * cap.radius * (1.0 - cap.cosine);
+}
+
+/// contactOf() the cap of one ball and that of the other.
+double contactOf(const BuriedCap& own, const BuriedCap& other, double apart)
+{
+    if (own.cosine == 1.0 || other.cosine == 1.0) return 0.0;
+    double sum = 0.0;
+    forEachRing(own, other, {std::acos(own.cosine), std::acos(other.cosine)}, apart,
+                [&](std::size_t, double, double square) { sum += std::exp(-decay * square); });
+    return areaOf(own) * sum / double(rings);
 }
 
 void setMeans(const std::pair<double, double>& a, const std::pair<double, double>& b,
@@ -312,9 +355,7 @@ double sidesOfSpheres(const Ball& first, const Ball& second, Report::Interface::
                     b = buriedCap(second.radius, first.radius, apart);
     if (a.trimmed > 0.0 && b.trimmed > 0.0)
         setMeans(mediansOf(a, b, apart), mediansOf(b, a, apart), fit);
-    const auto areaOf = [](const BuriedCap& cap) {
-        return 2.0 * M_PI * cap.radius * cap.radius * (1.0 - cap.cosine);
-    };
+    fit.contact = {contactOf(a, b, apart), contactOf(b, a, apart)};
     return 0.5 * (areaOf(a) + areaOf(b));
 }
 
@@ -356,7 +397,6 @@ FitMeasure::Side FitMeasure::sideOf(const FitSurface& own, const FitSurface& oth
     };
     const ExcludedPoints all = sampler_.of(own.boundary(), progress, counts);
     const std::vector<char> blocked = blockedBy(other.index(), all, progress);
-    ExcludedPoints buried;
     std::vector<Vec3d> open;
     Side side;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -364,10 +404,10 @@ FitMeasure::Side FitMeasure::sideOf(const FitSurface& own, const FitSurface& oth
             open.push_back(all[i].position);
             continue;
         }
-        buried.push_back(all[i]);
+        side.buried.push_back(all[i]);
         side.buriedArea += all[i].area;
     }
-    side.trimmed = withoutRim(buried, PointRuns(open), progress);
+    side.trimmed = withoutRim(side.buried, PointRuns(open), progress);
     return side;
 }
 
@@ -380,6 +420,8 @@ double FitMeasure::sidesOf(const FitSurface& first, const FitSurface& second,
     if (!a.trimmed.empty() && !b.trimmed.empty())
         setMeans(mediansOf(a.trimmed, b.trimmed, progress),
                  mediansOf(b.trimmed, a.trimmed, progress), fit);
+    fit.contact = {contactOf(a.buried, b.buried, progress),
+                   contactOf(b.buried, a.buried, progress)};
     return 0.5 * (a.buriedArea + b.buriedArea);
 }
 

@@ -42,7 +42,8 @@ private:
 /// Measures fits of two groups: their solvent-excluded surfaces, each alone, for a probe of 1.7
 /// Å, where the probe of a point would run into the other group, more than 1.5 Å from where none
 /// does. A point has the value (n.-n') exp(-0.5 d^2), n' being the normal of the other's nearest
-/// such point, d Å away; Sc is the mean of both sides' medians.
+/// such point, d Å away; Sc is the mean of both sides' medians. Contact areas have the rim, too,
+/// and sum exp(-0.5 d^2) over the area of a side.
 /// @see M. C. Lawrence and P. M. Colman, Shape complementarity at protein/protein interfaces, J.
 ///      Mol. Biol. 234:946-950, 1993, doi:10.1006/jmbi.1993.1648
 class FitMeasure
@@ -60,11 +61,12 @@ private:
     /// The part of a surface that the other group buries.
     struct Side {
         double buriedArea = 0.0; ///< [Å^2]
-        ExcludedPoints trimmed;  ///< buried ones, less those of the rim
+        ExcludedPoints buried;
+        ExcludedPoints trimmed; ///< buried ones, less those of the rim
     };
 
     Side sideOf(const FitSurface& own, const FitSurface& other, const Progress& progress);
-    /// Sets shape and distance where both sides have points.
+    /// Sets contact, and shape and distance where both sides have points.
     /// @return the area that each side buries, their mean [Å^2]
     double sidesOf(const FitSurface& first, const FitSurface& second, const Progress& progress,
                    Report::Interface::Fit& fit);

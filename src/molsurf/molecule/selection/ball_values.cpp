@@ -227,7 +227,7 @@ const std::vector<std::string>& valueWords()
     return words;
 }
 
-std::optional<ValueBy> parseValueBy(const std::string& text)
+std::optional<ValueBy> parseValueBy(const std::string& text, const std::string& option)
 {
     const std::size_t equals = text.find('=');
     const std::string word = lowered(text.substr(0, equals));
@@ -238,7 +238,7 @@ std::optional<ValueBy> parseValueBy(const std::string& text)
         if (k >= valuesWithoutFile) by.file = text.substr(equals + 1);
         if (k >= valuesWithoutFile && by.file.empty())
             throw Error(ErrorKind::Usage,
-                        "`color`: expected " + word + "=FILE, got '" + text + "'");
+                        "`" + option + "`: expected " + word + "=FILE, got '" + text + "'");
         return by;
     }
     return std::nullopt;

@@ -22,8 +22,9 @@ const std::vector<std::string>& valueWords();
 constexpr std::size_t valuesWithoutFile = 7;
 
 /// The values of a word, with a file "table=FILE"; none: it is no such word.
+/// @param[in] option  that has it, for the error
 /// @throws Error(ErrorKind::Usage) if the file is missing
-std::optional<ValueBy> parseValueBy(const std::string& text);
+std::optional<ValueBy> parseValueBy(const std::string& text, const std::string& option = "color");
 
 /// The text that parseValueBy() reads.
 std::string textOf(const ValueBy& by);

@@ -341,6 +341,17 @@ std::string textOf(const GroupBy& by)
                                               : groupWords[std::size_t(by.kind)];
 }
 
+void addColorGroups(const Selections& selections, const BallSet& atoms,
+                    const std::vector<GroupRule>& rules, BallLabels& labels)
+{
+    BallLabels own;
+    labelByRules(selections, atoms, rules, own);
+    countBalls(atoms, own.groupOf, own.groups);
+    labels.colorGroups = std::move(own.groups);
+    labels.colorGroupOf = std::move(own.groupOf);
+    labels.warnings.insert(labels.warnings.end(), own.warnings.begin(), own.warnings.end());
+}
+
 BallLabels labelBalls(const Selections& selections, const BallSet& atoms,
                       const std::vector<GroupRule>& rules, const std::optional<GroupBy>& by)
 {

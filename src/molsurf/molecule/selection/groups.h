@@ -47,4 +47,8 @@ std::string textOf(const GroupBy& by);
 BallLabels labelBalls(const Selections& selections, const BallSet& atoms,
                       const std::vector<GroupRule>& rules, const std::optional<GroupBy>& by);
 
+/// Adds groups that are there for colours alone, by the same rules.
+void addColorGroups(const Selections& selections, const BallSet& atoms,
+                    const std::vector<GroupRule>& rules, BallLabels& labels);
+
 } // namespace molsurf

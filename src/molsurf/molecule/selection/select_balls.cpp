@@ -491,40 +491,55 @@ void applyResolutions(const Selections& selections, const SelectOptions& options
     }
 }
 
-/// Adds the values that a surface is coloured by.
+/// The values of the balls.
 /// @param[in] probe  of the surface that depths are below [Å]
-void addValues(const Structure& structure, const LabelOptions& options, std::size_t maxInput,
-               double probe, const Progress& progress, BallSet& out)
+BallValues valuesBy(const ValueBy& by, const Structure& structure, const SelectOptions& options,
+                    double probe, const Progress& progress, BallSet& out)
 {
     BallPlaces places{openvdb::Vec3d(0.0), {}};
     for (const Ball& ball : out.balls)
         places.centre += openvdb::Vec3d(ball.center) / double(out.balls.size());
     if (out.placement.unit) places.centre = out.placement.unit->centre;
-    if (options.valueBy->kind == ValueBy::Kind::Depth)
-        places.depths = ballDepths(out, probe, progress);
-    BallValues values = ballValues(structure, out.balls, *options.valueBy, options.coloring, places,
-                                   maxInput, out.record.warnings);
+    if (by.kind == ValueBy::Kind::Depth) places.depths = ballDepths(out, probe, progress);
+    BallValues values = ballValues(structure, out.balls, by, out.coloring, places,
+                                   options.limits.maxInput, out.record.warnings);
     const std::size_t none = std::size_t(std::count_if(values.valueOf.begin(), values.valueOf.end(),
                                                        [](float v) { return !std::isfinite(v); }));
     if (none == values.valueOf.size() && !values.byPoint())
         failAt(structure.source, values.title + ": no atom has one");
-    out.labels->values = std::move(values);
+    return values;
+}
+
+/// Adds the values that colours show and those that patches are of.
+void addValues(const Structure& structure, const SelectOptions& options, const LabelOptions& labels,
+               double probe, const Progress& progress, BallSet& out)
+{
+    const std::optional<ValueBy>&colored = labels.valueBy, &patched = labels.patchBy;
+    if (colored) out.labels->values = valuesBy(*colored, structure, options, probe, progress, out);
+    const bool same = colored && patched && textOf(*colored) == textOf(*patched);
+    if (patched)
+        out.labels->patchValues =
+            same ? out.labels->values
+                 : valuesBy(*patched, structure, options, probe, progress, out);
 }
 
 /// Adds the labels, if any are asked for. Prototypes are their groups.
-/// @param[in] groups  of `options`, with the numbers of their copies
-void addLabels(const Selections& selections, const LabelOptions& options,
-               const std::vector<GroupRule>& groups, BallSet& out)
+/// @param[in] options  whose groups have the numbers of their copies
+void addLabels(const Selections& selections, const LabelOptions& options, BallSet& out)
 {
+    const std::vector<GroupRule>& groups = options.groups;
     const bool several = out.placement.prototypes() > 1 && !out.placement.folded;
     const bool grouped = !groups.empty() || options.groupBy;
     if (several && grouped)
         throw Error(ErrorKind::Usage,
                     "`groups` and `groupBy`: expected one prototype, the assembly has " +
                         std::to_string(out.placement.copies) + " with `instances`");
-    if (!options.labels && !options.valueBy && !grouped && !several) return;
+    const bool valued = options.valueBy || options.patchBy || !options.colorGroups.empty();
+    if (!options.labels && !valued && !grouped && !several) return;
     out.labels = labelBalls(selections, out, groups,
                             several ? GroupBy{GroupBy::Kind::Copy} : options.groupBy);
+    if (!options.colorGroups.empty())
+        addColorGroups(selections, out, options.colorGroups, *out.labels);
     out.record.warnings.insert(out.record.warnings.end(), out.labels->warnings.begin(),
                                out.labels->warnings.end());
 }
@@ -579,7 +594,7 @@ bool wantsPlacesAlone(const SelectOptions& options, const LabelOptions& labels)
 {
     return options.coarse.empty() && options.resolutions.empty() && !labels.labels &&
            !labels.names && !labels.charges && labels.groups.empty() && !labels.groupBy &&
-           !labels.valueBy;
+           !labels.valueBy && !labels.patchBy && labels.colorGroups.empty();
 }
 
 /// Puts each part of an assembly once, if its copies have no duplicates and lie where balls may.
@@ -682,8 +697,9 @@ BallSet selectBalls(const Selections& selections, const SelectOptions& options,
                                    coarse.warnings.end());
     }
     stopIfCancelled(progress);
-    const std::vector<GroupRule> groups =
-        withCopies(structure, options.assembly.name, labels.groups, balls);
+    LabelOptions labelled = labels;
+    for (std::vector<GroupRule>* groups : {&labelled.groups, &labelled.colorGroups})
+        *groups = withCopies(structure, options.assembly.name, std::move(*groups), balls);
     placeBalls(structure, options, options.assembly.folded && wantsPlacesAlone(options, labels),
                std::move(balls), out);
     if (out.balls.empty()) {
@@ -700,10 +716,10 @@ BallSet selectBalls(const Selections& selections, const SelectOptions& options,
     if (!beadAtoms.empty()) countBeads(beadAtoms, out);
     stopIfCancelled(progress);
     applyResolutions(selections, options, out);
-    addLabels(selections, labels, groups, out);
+    addLabels(selections, labelled, out);
     stopIfCancelled(progress);
     out.coloring = labels.coloring;
-    if (labels.valueBy) addValues(structure, labels, options.limits.maxInput, probe, progress, out);
+    addValues(structure, options, labels, probe, progress, out);
     if (labels.plainColor) out.colors.assign(out.balls.size(), *labels.plainColor);
     if (labels.names) out.names = ballNames(structure, out);
     return out;

@@ -44,10 +44,14 @@ BallSet subset(const BallSet& atoms, const std::vector<std::size_t>& which, Coun
     labels.groups = all.groups;
     labels.chainOf = gather(all.chainOf, which);
     labels.groupOf = gather(all.groupOf, which);
+    labels.colorGroups = all.colorGroups;
+    labels.colorGroupOf = gather(all.colorGroupOf, which);
     labels.elementOf = gather(all.elementOf, which);
     labels.residueClassOf = gather(all.residueClassOf, which);
     labels.values = all.values;
     if (labels.values) labels.values->valueOf = gather(all.values->valueOf, which);
+    labels.patchValues = all.patchValues;
+    if (labels.patchValues) labels.patchValues->valueOf = gather(all.patchValues->valueOf, which);
     if (counted == Counted::Subset) countBalls(out, labels.groupOf, labels.groups);
     return out;
 }

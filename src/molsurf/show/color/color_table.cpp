@@ -112,6 +112,11 @@ bool hasGroups(const BallSet& atoms)
     return atoms.labels && !atoms.labels->groups.empty();
 }
 
+bool hasFileGroups(const BallSet& atoms)
+{
+    return atoms.labels && !atoms.labels->colorGroups.empty();
+}
+
 bool hasValues(const BallSet& atoms)
 {
     return atoms.labels && atoms.labels->values;
@@ -209,6 +214,28 @@ ColorKind byGroup()
     return kind;
 }
 
+/// By groups of a file, which are there for colours alone.
+ColorKind byFileGroup()
+{
+    ColorKind kind = byLabels(ColorBy::FileGroup, "groups", "Group");
+    kind.complete = false;
+    kind.needs = "groups, as of LabelOptions::colorGroups";
+    kind.has = hasFileGroups;
+    kind.ofBalls = [](const BallSet& atoms, const Progress& progress) {
+        return spread(fileGroupColors(atoms, progress), atoms.labels->colorGroupOf);
+    };
+    kind.describe = [](const BallSet& atoms, const Mesh&, const Progress& progress,
+                       Legend& legend) {
+        const std::vector<Color> colors = fileGroupColors(atoms, progress);
+        for (std::size_t i = 0; i < colors.size(); ++i)
+            legend.entries.push_back({atoms.labels->colorGroups[i].name, colors[i]});
+        const std::vector<std::int32_t>& of = atoms.labels->colorGroupOf;
+        if (std::count(of.begin(), of.end(), -1) > 0)
+            legend.entries.push_back({"other", neutralColor});
+    };
+    return kind;
+}
+
 /// By the CPK convention, with Jmol's values.
 ColorKind byElement()
 {
@@ -292,10 +319,10 @@ ColorKind byCurvature(ColorBy by, const char* word, const char* title, const cha
     return kind;
 }
 
-/// The pockets that vertices are the walls of, which addPockets() labels.
-ColorKind byPocket()
+/// A row of colours whose names and places the mesh has as a label.
+ColorKind byLabelOfMesh(ColorBy by, const char* word, const char* title)
 {
-    ColorKind kind{ColorBy::Pocket, "pocket", "Pocket", "pocket"};
+    ColorKind kind{by, word, title, word};
     kind.describe = [](const BallSet&, const Mesh& mesh, const Progress&, Legend& legend) {
         for (const auto& label : mesh.labels) {
             if (label.name != legend.attribute || mesh.colors.empty()) continue;
@@ -352,6 +379,7 @@ const std::vector<ColorKind>& colorTable()
         {ColorBy::Nothing, "none"},
         byChain(),
         byGroup(),
+        byFileGroup(),
         byElement(),
         byClass<classColors, false>(ColorBy::Residue, "residue", "Residue", "or residue-type"),
         byClass<baseColors, true>(ColorBy::Nucleotide, "nucleotide", "Nucleotide"),
@@ -361,7 +389,8 @@ const std::vector<ColorKind>& colorTable()
                     "1/Å"),
         byCurvature(ColorBy::GaussianCurvature, "gaussian-curvature", "Gaussian curvature",
                     "gaussian_curvature", "1/Å²"),
-        byPocket(),
+        byLabelOfMesh(ColorBy::Pocket, "pocket", "Pocket"), // by addPockets()
+        byLabelOfMesh(ColorBy::Patch, "patch", "Patch"),    // by addPatches()
         plain(),
         byValue()};
     return all;

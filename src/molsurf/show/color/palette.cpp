@@ -98,20 +98,37 @@ std::vector<Color> chainColors(const BallSet& atoms, const Progress& progress)
         contacts(atoms.balls, labels.chainOf, labels.chains.size(), visibleGap, progress));
 }
 
+namespace
+{
+
+/// The colours of groups, of which those without one of their own that touch have different ones.
+std::vector<Color> colorsOfGroups(const BallSet& atoms, const std::vector<Group>& groups,
+                                  const std::vector<std::int32_t>& groupOf,
+                                  const Progress& progress)
+{
+    std::vector<std::int32_t> places;
+    for (const Group& group : groups) places.push_back(group.place);
+    std::vector<Color> colors = colorsOfPlaces(places);
+    if (colors.empty())
+        colors =
+            distinctColors(contacts(atoms.balls, groupOf, groups.size(), visibleGap, progress));
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        if (groups[g].color) colors[g] = *groups[g].color;
+    return colors;
+}
+
+} // namespace
+
 std::vector<Color> groupColors(const BallSet& atoms, const Progress& progress)
 {
     if (!atoms.labels || atoms.labels->groups.empty()) return {};
-    const BallLabels& labels = *atoms.labels;
-    std::vector<std::int32_t> places;
-    for (const Group& group : labels.groups) places.push_back(group.place);
-    std::vector<Color> colors = colorsOfPlaces(places);
-    if (colors.empty())
-        colors = distinctColors(
-            contacts(atoms.balls, labels.groupOf, labels.groups.size(), visibleGap, progress));
-    for (std::size_t g = 0; g < labels.groups.size(); ++g) {
-        if (labels.groups[g].color) colors[g] = *labels.groups[g].color;
-    }
-    return colors;
+    return colorsOfGroups(atoms, atoms.labels->groups, atoms.labels->groupOf, progress);
+}
+
+std::vector<Color> fileGroupColors(const BallSet& atoms, const Progress& progress)
+{
+    if (!atoms.labels || atoms.labels->colorGroups.empty()) return {};
+    return colorsOfGroups(atoms, atoms.labels->colorGroups, atoms.labels->colorGroupOf, progress);
 }
 
 std::vector<Color> ballColors(const BallSet& atoms, ColorBy by, const Progress& progress)

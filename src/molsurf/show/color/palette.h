@@ -59,4 +59,7 @@ std::vector<Color> instanceColors(const BallSet& atoms, const Progress& progress
 /// The colours of the groups themselves, as ballColors() gives them.
 std::vector<Color> groupColors(const BallSet& atoms, const Progress& progress);
 
+/// The same of BallLabels::colorGroups.
+std::vector<Color> fileGroupColors(const BallSet& atoms, const Progress& progress);
+
 } // namespace molsurf

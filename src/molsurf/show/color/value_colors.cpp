@@ -63,11 +63,11 @@ std::vector<Color> valueColors(const BallValues& values)
     return out;
 }
 
-PointValues::PointValues(const BallSet& atoms, double outward)
-    : values_(*atoms.labels->values), index_(atoms.balls, {0.5, 0.0, 2.0}),
-      scale_(scaleOf(values_)), smallest_(std::numeric_limits<double>::max()), outward_(outward)
+PointValues::PointValues(const std::vector<Ball>& balls, const BallValues& values, double outward)
+    : values_(values), index_(balls, {0.5, 0.0, 2.0}), scale_(scaleOf(values_)),
+      smallest_(std::numeric_limits<double>::max()), outward_(outward)
 {
-    for (const Ball& ball : atoms.balls) smallest_ = std::min(smallest_, ball.radius);
+    for (const Ball& ball : balls) smallest_ = std::min(smallest_, ball.radius);
 }
 
 PointValue PointValues::at(const Vec3d& x, const Vec3d& normal, double reach) const
@@ -153,29 +153,35 @@ std::vector<PointValue> PointValues::on(const openvdb::BoolGrid& voxels,
     return out;
 }
 
-void addValues(const BallSet& atoms, double outward, const Labels& nearest, double reach,
-               const Progress& progress, Mesh& mesh)
+std::vector<PointValue> vertexValues(const PointValues& points, const BallValues& values,
+                                     const Labels& nearest, double reach, const Progress& progress,
+                                     const Mesh& mesh)
 {
-    const BallValues& values = *atoms.labels->values;
     const bool flat = isFlat(values) && !values.byPoint();
-    const PointValues points(atoms, outward);
-    Attribute<float>& out = mesh.scalars.emplace_back();
-    out.name = values.name;
-    out.values.resize(mesh.positions.size(), missing);
+    std::vector<PointValue> out(mesh.positions.size(), {missing, 0.0f});
     constexpr std::size_t chunk = 64;
-    parallelFor((mesh.positions.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
+    parallelFor((out.size() + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        const std::size_t end = std::min(out.size(), (c + 1) * chunk);
         for (std::size_t v = c * chunk; v < end; ++v) {
-            if (flat) {
-                if (nearest[v] >= 0) out.values[v] = values.valueOf[std::size_t(nearest[v])];
-                continue;
-            }
-            const PointValue value =
-                points.at(Vec3d(mesh.positions[v]), Vec3d(mesh.normals[v]), reach);
-            out.values[v] = value.known();
-            mesh.colors[v] = points.colorOf(value);
+            if (!flat)
+                out[v] = points.at(Vec3d(mesh.positions[v]), Vec3d(mesh.normals[v]), reach);
+            else if (nearest[v] >= 0)
+                out[v] = {values.valueOf[std::size_t(nearest[v])], 1.0f};
         }
     });
+    return out;
+}
+
+void addValues(const BallValues& values, const PointValues& points,
+               const std::vector<PointValue>& ofVertices, Mesh& mesh)
+{
+    const bool colors = !isFlat(values) || values.byPoint();
+    Attribute<float>& out = mesh.scalars.emplace_back();
+    out.name = values.name;
+    for (std::size_t v = 0; v < ofVertices.size(); ++v) {
+        out.values.push_back(ofVertices[v].known());
+        if (colors) mesh.colors[v] = points.colorOf(ofVertices[v]);
+    }
 }
 
 double outwardOf(const Coloring& coloring, const SurfaceSpec& spec)

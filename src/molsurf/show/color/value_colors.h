@@ -47,8 +47,15 @@ struct PointValue {
 class PointValues
 {
 public:
+    /// @param[in] values   of the balls
     /// @param[in] outward  how far outside of the surface a potential is taken [Å]
-    PointValues(const BallSet& atoms, double outward);
+    PointValues(const std::vector<Ball>& balls, const BallValues& values, double outward);
+
+    /// Those that colours show.
+    PointValues(const BallSet& atoms, double outward)
+        : PointValues(atoms.balls, *atoms.labels->values, outward)
+    {
+    }
 
     /// @param[in] normal  of the surface there, outward
     /// @param[in] reach   no point that has a value is farther than this from its ball [Å]
@@ -71,12 +78,19 @@ private:
     double outward_;  ///< [Å]
 };
 
-/// Adds the values to the vertices of a mesh as a scalar, which is not a number where less than
-/// half of the weights have one, and colours them by it unless they are flat.
-/// @param[in] outward  as above
+/// The values of the vertices of a mesh: of the ball of each, where they are flat.
+/// @param[in] points   made of the same values
 /// @param[in] nearest  ball of each vertex
-void addValues(const BallSet& atoms, double outward, const Labels& nearest, double reach,
-               const Progress& progress, Mesh& mesh);
+/// @param[in] reach    as above
+std::vector<PointValue> vertexValues(const PointValues& points, const BallValues& values,
+                                     const Labels& nearest, double reach, const Progress& progress,
+                                     const Mesh& mesh);
+
+/// Adds the values of vertices to their mesh as a scalar, which is not a number where less than
+/// half of the weights have one, and colours them by it unless they are flat.
+/// @param[in] points  made of the same values
+void addValues(const BallValues& values, const PointValues& points,
+               const std::vector<PointValue>& ofVertices, Mesh& mesh);
 
 /// Gives how far outside of the surface a potential is taken [Å]: where the coloring does not say
 /// it, a probe radius, if the surface is not that far from the atoms itself.

@@ -164,6 +164,8 @@ constexpr ReportKey keyTable[] = {
     {"areas_of", "",
      "Kind of surface of interfaces and tables: sas unless another is asked for; null if there are "
      "none"},
+    {"polar_area", "Å²", "Area of polar atoms on that surface; null without areas by atom"},
+    {"apolar_area", "Å²", "Area of apolar atoms, likewise"},
     {"interfaces", "", "Pairs of groups that bury area between them"},
     {"interfaces[].groups", "", "Names of both"},
     {"interfaces[].buried_area", "Å²", "Half of the area that both lose by meeting"},
@@ -174,6 +176,8 @@ constexpr ReportKey keyTable[] = {
     {"interfaces[].median_distance", "Å", "Median distance of these surfaces, without the rim"},
     {"interfaces[].gap_volume", "Å³", "Volume between them that such a probe does not reach"},
     {"interfaces[].gap_index", "Å", "Gap volume by the area that each buries"},
+    {"interfaces[].contact_areas", "Å²",
+     "Contact molecular surface of each"},
     {"pockets", "", "Pockets, if they were asked for, else null"},
     {"pockets.probe_in", "Å", "Radius of the probe that gets into pockets"},
     {"pockets.probe_out", "Å", "Radius of the probe that stays out of them"},

@@ -138,7 +138,8 @@ Json interfacesJson(const std::vector<Report::Interface>& interfaces)
                            {"shape_complementarity", i.fit.shape},
                            {"median_distance", i.fit.distance},
                            {"gap_volume", i.fit.gapVolume},
-                           {"gap_index", i.fit.gapIndex}});
+                           {"gap_index", i.fit.gapIndex},
+                           {"contact_areas", i.fit.contact}});
     }
     return out;
 }
@@ -334,6 +335,8 @@ std::string reportText(const Report& report)
         {"threads", report.threads},
         {"groups", groupsJson(report.groups)},
         {"areas_of", orNull(report.areasOf)},
+        {"polar_area", report.polarArea ? Json(*report.polarArea) : Json()},
+        {"apolar_area", report.apolarArea ? Json(*report.apolarArea) : Json()},
         {"interfaces", interfacesJson(report.interfaces)},
         {"pockets", report.pockets ? pocketsJson(*report.pockets) : Json()},
         {"pore", report.pore ? poreJson(*report.pore) : Json()},
