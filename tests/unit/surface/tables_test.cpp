@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Tables of areas, as callers of the face have them.
 
+#include "molsurf/analysis/measures/polarity.h"
 #include "molsurf/error.h"
 #include "molsurf/surface.h"
 
@@ -51,6 +52,36 @@ std::string usageOf(const std::function<void()>& call)
         return e.what();
     }
     return "taken";
+}
+
+// Hydrogens are of the class of the nearest heavy atom of their residue.
+TEST(Tables, AHydrogenIsOfTheClassOfItsHeavyAtom)
+{
+    BallSet atoms;
+    BallNames& names = atoms.names.emplace();
+    const auto add = [&](int residue, std::uint8_t element, double x) {
+        atoms.balls.push_back({{x, 0.0, 0.0}, 1.5, std::int32_t(atoms.balls.size())});
+        names.atoms.push_back({"X", '\0', element, 1.0f});
+        names.residueOf.push_back(residue);
+    };
+    for (const int number : {1, 2, 3})
+        names.residues.push_back({"A", "A", "LIG", number, ' ', false});
+    add(0, 1, -1.0); // beside the carbon
+    add(0, 6, 0.0);
+    add(0, 7, 1.5);
+    add(0, 1, 2.5);  // beside the nitrogen
+    add(1, 8, 3.0);  // nearer to it, of another residue
+    add(1, 1, 20.0); // far from its oxygen
+    add(2, 1, 0.1);  // of a residue without any other
+    add(2, 0, 0.2);
+    for (const std::uint8_t apolar : {9, 15, 16, 17, 34, 35, 53}) add(0, apolar, 50.0);
+    for (const std::uint8_t polar : {11, 30, 12}) add(0, polar, 60.0);
+    using P = Polarity;
+    std::vector<P> expected = {P::Apolar, P::Apolar, P::Polar, P::Polar,
+                               P::Polar,  P::Polar,  P::Polar, P::Unknown};
+    expected.insert(expected.end(), 7, P::Apolar);
+    expected.insert(expected.end(), 3, P::Polar);
+    EXPECT_EQ(polarityOf(atoms), expected);
 }
 
 TEST(Tables, OfAtomsAndResiduesAddUpToTheArea)
