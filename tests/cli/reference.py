@@ -184,6 +184,7 @@ CASES = [[f"{name} {more} {EVERY}"] for name, more in [
     ["chamber.xyzr --tunnels-from 0.2,0.1,0 --voxel 1.5 -o a.tunnels.csv -o a.tunnels.ply -o a.json", "chamber.xyzr --tunnels-from 'index 900 to 902' --voxel 1.5 -o b.tunnels.csv",
      "@1ubq.pdb --tunnels-from A/43 --tunnel-probe 0.7 --voxel 1.5 -o c.tunnels.csv -o c.tunnels.cxc -o c.tunnels.pml"],
     ["chamber.xyzr --pockets --voxel 0.8 -o a.pockets.csv -o a.json", "rooms.xyzr --pockets --voxel 0.7 -o b.pockets.csv -o b.pockets.stl -o b.json"],
+    [f"{D} --pockets --color {color} --show pockets=4 -o {color}.html" for color in ("chain", "hetero")],
     [f"{A} --pocket-at A/50 -o a.pockets.csv", f"{A} --pockets --color pocket --show pockets=2 --size 120 -o a.png -o a.ply"],
     ["acid.sdf --voxel 0.5 --surface ses --color element -o a.ply -o a.atoms.csv -o a.legend.svg", "acid.sdf --select 'not hydrogen' --surface sas -o b.json -o b.residues.csv",
      "acid.sdf --surface sas --fields depth --areas atoms,contacts -o c.atoms.csv -o c.contacts.csv -o c.cif"],
