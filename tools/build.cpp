@@ -102,7 +102,9 @@ RunLimits limitsOf(const CommandLine& call, const BallSet& atoms)
     if (call.shownPockets > few && call.writes(Pixels))
         limits.besides.bytes += std::size_t(
             shareOfBodies * costOfPockets(atoms, call.options, {double(atoms.balls.size())}).bytes);
-    for (const auto& [content, cost] : {std::pair(Density, costOfDensity), {Mask, costOfMask}})
+    const std::pair<Content, decltype(&costOfMask)> maps[] = {{Density, costOfDensity},
+                                                              {Mask, costOfMask}};
+    for (const auto& [content, cost] : maps)
         if (call.writes(content)) {
             const Cost map = cost(atoms, call.tomogram);
             limits.besides.seconds += map.seconds;

@@ -15,6 +15,7 @@ import json
 import math
 import pathlib
 import re
+import shlex
 import struct
 import subprocess
 import sys
@@ -23,6 +24,7 @@ import zipfile
 import zlib
 
 from tool import ROOT, TOOL, read_png
+from trajectories import dcd, netcdf, trr
 
 VALUES = ROOT / "tests" / "reference.json"
 # Sums may differ by these shares of the sum of absolute values, the first that fits the name: processors and compilers round in
@@ -64,6 +66,43 @@ def tube(rings, across):
             for i in range(rings) for k in range(8)]
 
 
+def block(half, spacing, radius, is_hollow):
+    """Atoms on a lattice, but for what is hollow."""
+    places = [spacing * k for k in range(-int(half / spacing), int(half / spacing) + 1)]
+    return [(x, y, z, radius) for x in places for y in places for z in places if not is_hollow(x, y, z)]
+
+
+def chamber(x, y, z):
+    """A chamber, a shaft along x, and a wider one along y, with a side chamber at its end."""
+    wide = lambda a, b, half: max(abs(a), abs(b)) < half
+    return wide(x, max(abs(y), abs(z)), 3.9) or (x > 0 and wide(y, z, 2.9)) or (y > 0 and wide(x, z, 3.4)) or \
+        wide(x + 7.5, max(abs(y), abs(z)), 2.9)
+
+
+# Butanoic acid with all hydrogens: element, x, y, z, bonded to.
+ACID = [("C", 0.00, 0.00, 0.00, ()), ("C", 1.26, 0.85, 0.00, (1,)), ("C", 2.52, 0.00, 0.02, (2,)), ("C", 3.78, 0.84, 0.05, (3,)),
+        ("O", 3.80, 2.05, 0.08, (4,)), ("O", 4.90, 0.11, 0.04, (4,)), ("H", -0.89, 0.64, 0.02, (1,)), ("H", -0.03, -0.64, 0.88, (1,)),
+        ("H", -0.04, -0.63, -0.89, (1,)), ("H", 1.26, 1.50, 0.88, (2,)), ("H", 1.27, 1.51, -0.87, (2,)), ("H", 2.53, -0.66, -0.86, (3,)),
+        ("H", 2.52, -0.65, 0.90, (3,)), ("H", 5.67, 0.71, 0.06, (6,))]
+
+
+def sdf():
+    bonds = [(a, n, 2 if (e, a) == ("O", 4) and n == 5 else 1) for n, (e, *_, to) in enumerate(ACID, 1) for a in to]
+    rows = [f"{x:10.4f}{y:10.4f}{z:10.4f} {e:<3} 0  0" for e, x, y, z, _ in ACID]
+    return "\n".join(["acid", "  made    01010100003D", "", f"{len(rows):3}{len(bonds):3}  0  0  0  0            999 V2000", *rows,
+                      *(f"{a:3}{b:3}{order:3}  0" for a, b, order in bonds), "M  END", "$$$$", ""])
+
+
+def xyz(properties, row):
+    return f"{len(ACID)}\n{properties}\n" + "".join(row(e, x, y, z) + "\n" for e, x, y, z, _ in ACID)
+
+
+def moving(count):
+    """The acid as it turns and grows."""
+    turned = lambda x, y, z, n: (x * math.cos(0.3 * n) - y * math.sin(0.3 * n), x * math.sin(0.3 * n) + 1.1 ** n * y, z + 0.4 * n)
+    return [[turned(x, y, z, n) for _, x, y, z, _ in ACID] for n in range(count)]
+
+
 # Molecules that the commands read.
 FILES = {
     "two.xyzr": atoms((0, 0, 0, 1.7), (2.9, 0.4, 0.1, 1.5)),
@@ -76,6 +115,17 @@ FILES = {
     "ion.pqr": "ATOM 1 C ION 1 0.0 0.0 0.0 1.0 2.0\nATOM 2 C ION 2 3.0 0.5 0.0 -0.5 1.0\nATOM 3 N ION 2 3.9 0.5 0.7 -0.1 0.0\n",
     "held.xyzr": atoms(*ring(4, 5.12), (14, 1, 2, 1.5)),
     "list.txt": "two.xyzr\napart.xyzr\nring6.xyzr\n",
+    "hourglass.xyzr": atoms(*[(x * (1 + 0.004 * (i - 5) ** 2), y * (1 + 0.004 * (i - 5) ** 2), z, r)
+                              for i in range(12) for x, y, z, r in tube(12, 4.2)[8 * i:8 * i + 8]]),
+    "channels.xyzr": atoms(*block(7.5, 1.5, 1.7, lambda x, y, z: math.hypot(x - 4.5, y) < 3.5 or math.hypot(x + 4.5, y) < 2.9)),
+    "chamber.xyzr": atoms(*block(9, 1.5, 1.6, lambda x, y, z: abs(z) > 7 or chamber(x, y, z))),
+    "rooms.xyzr": atoms(*block(9, 1.5, 1.6, lambda x, y, z: max(abs(y), abs(z)) > 7 or max(abs(abs(x) - 4.5), abs(y), abs(z)) < 3.2)),
+    "acid.sdf": sdf(),
+    "acid.xyz": xyz('Properties="species:S:1:pos:R:3"', lambda e, x, y, z: f"{e} {x} {y} {z}"),
+    "acid2.xyz": xyz("energy=-3 Properties=pos:R:3:q:R:1:species:S:1", lambda e, x, y, z: f"{x} {y} {z} 0.5 {e}"),
+    "t.dcd": dcd(moving(3), fixed=(0, 3), cell=True), "u.dcd": dcd(moving(3), ">", fourth=True),
+    "t.trr": trr(moving(3), extra=(1,), version=b"GMX_trn_fil", cell=False), "u.trr": trr(moving(2), "d", velocities=True),
+    "t.nc": netcdf(moving(3), 5, scale=0.5, promised=2), "u.nc": netcdf(moving(2), 2, "d"),
     "groups.txt": "front resid 1-20 #ff8800\nback resid 21-46 teal\n",
 }
 
@@ -130,6 +180,37 @@ CASES = [[f"{name} {more} {EVERY}"] for name, more in [
     [f"{C} --color element --size 300 --panel ses --panel 1,0,0 --label A/10=here --ruler A/1..A/40 --show A/5-9=sticks --opacity 0.4 -o a.png"],
     [f"{C} --color bfactor --view A/20 --up 0,1,1 --turn 20 --background black --show spheres --opacity 0.5 --show-behind --size 200 -o a.png -o a.view"],
     [f"{C} --surface ses --color element --panel vdw -o a.html"],
+    ["hourglass.xyzr --pore auto --voxel 1 -o a.pore.csv -o a.pore.svg -o a.json", "hourglass.xyzr --pore '0,0.5,-3 -> 0.4,0,20' --voxel 1 -o b.pore.csv",
+     "hourglass.xyzr --pore '1,0,4 -> 0,1,12' --voxel 1 -o c.pore.csv -o c.pore.glb"],
+    ["channels.xyzr --pore z --voxel 1 -o a.pore.csv -o a.json", "@1grm.pdb.gz --pore 'A/4-6 -> B/4-6' --voxel 1.5 -o b.pore.csv -o b.pore.svg"],
+    ["chamber.xyzr --tunnels-from 0.2,0.1,0 --voxel 1.5 -o a.tunnels.csv -o a.tunnels.ply -o a.json", "chamber.xyzr --tunnels-from 'index 900 to 902' --voxel 1.5 -o b.tunnels.csv",
+     "@1ubq.pdb --tunnels-from A/43 --tunnel-probe 0.7 --voxel 1.5 -o c.tunnels.csv -o c.tunnels.cxc -o c.tunnels.pml"],
+    ["chamber.xyzr --pockets --voxel 0.8 -o a.pockets.csv -o a.json", "rooms.xyzr --pockets --voxel 0.7 -o b.pockets.csv -o b.pockets.stl -o b.json"],
+    [f"{D} --pockets --color {color} --show pockets=4 -o {color}.html" for color in ("chain", "hetero")],
+    [f"{A} --pocket-at A/50 -o a.pockets.csv", f"{A} --pockets --color pocket --show pockets=2 --size 120 -o a.png -o a.ply"],
+    ["acid.sdf --voxel 0.5 --surface ses --color element -o a.ply -o a.atoms.csv -o a.legend.svg", "acid.sdf --select 'not hydrogen' --surface sas -o b.json -o b.residues.csv",
+     "acid.sdf --surface sas --fields depth --areas atoms,contacts -o c.atoms.csv -o c.contacts.csv -o c.cif"],
+    ["acid.xyz --surface vdw -o a.atoms.csv", "acid2.xyz --surface vdw -o b.atoms.csv", "acid.sdf --color element --show sticks --opacity 0.5 --size 120 -o c.png"],
+] + [
+    [f"acid.xyz --trajectory {letter}.{kind} --surface sas --frames all -o {letter}.csv -o {letter}.json" for letter in "tu"] for kind in ("dcd", "trr", "nc")
+] + [
+    ["acid.xyz --trajectory u.dcd --voxel 0.7 --frames all --fields v,density --fps 12 --for usd=0.1 --fog-density 0.2 -o a.vdb"],
+    ["acid.xyz --trajectory u.dcd --voxel 0.7 --frames 2-3 --fields v -o a.usda", "@1d3z.pdb.gz --frames 1-3:2 --superpose auto --surface sas -o b.csv"],
+    [f"{D} --for houdini --center --color chain --surface ses -o a.vdb -o a.usda", f"{D} --copies fold:2 --surface sas --group-by residues:40 -o b.json -o b.glb -o b.3mf"],
+    [f"{C} --color chain --for unreal --fog-density 1 -o a.vdb", f"{C} --fields curvedness,gaussian_curvature,principal_curvature_1 --for blender4=nm -o b.vdb"],
+    [f"{A} --color {color} --surface ses -o {color}.pml -o {color}.ply -o {color}.cxc -o {color}.glb" for color in ("bfactor", "residue")],
+    [f"{S} --color chain --surface ses -o a.usda -o a.legend.svg -o a.html", f"{S} --color bfactor --palette plddt -o b.legend.svg -o b.ply"],
+    [f"{A} --surface sas --select '{select}' -o {n}.json" for n, select in enumerate((
+        "backbone and resid 3 to 20", "byres (within 4 of resid 30)", "name C* and not name CA CB", "b > 20 | resname LYS ARG", "same residue as (element S)",
+        "around 3 (resid 48)", "A/10-20;polymer", "sidechain or (chain A and resid 70-76)"))],
+    [f"{S} --surface vdw --select '{select}' -o {n}.atoms.csv" for n, select in enumerate(("hetatm", "ion or water", "not protein", "resname HEM or nucleic"))],
+    [f"bricks plan {C} --surface ses --groups groups.txt --color group --bricks 3 -o p.json", *(f"bricks run p.json {n}" for n in (3, 1, 2)),
+     "bricks merge p.json -o m.ply -o m.vdb -o m.json"],
+    ["compare @1crn.pdb @1ubq.pdb --superpose auto --voxel 1.5 -o c.json", "compare two.xyzr apart.xyzr --surface ses --voxel 0.6 -o d.json -o d.ply"],
+    [f"{C} --style flat --color illustrative --size 150 -o a.png", f"{C} --style outline --color chain --size 400 -o b.png", f"{A} --turntable 3 --size 80 -o c.png"],
+    ["acid.sdf --surface ses --voxel 0.6 --label 'index 3=acid \"A\"' --ruler 'index 0..index 5' --scale-bar --size 240 -o a.png",
+     "acid.sdf --color element --voxel 0.6 --size 600 --label 'index 0=here' --scale-bar --legend on -o b.png"],
+    [f"{A} --surface ses --pore z --size 200 -o a.pore.png -o a.pore.csv"],
 ]
 
 
@@ -257,13 +338,13 @@ def run(commands):
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         for name, content in FILES.items():
-            (folder / name).write_text(content)
+            (folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
         said = []
         for command in commands:
             for name in re.findall(r"@(\S+)", command):
                 if not (folder / name).exists():
                     (folder / name).symlink_to(ROOT / "tests" / "data" / name)
-            done = subprocess.run([TOOL, *command.replace("@", "").split(), "-j", "2", "--no-progress"], cwd=folder, capture_output=True, text=True)
+            done = subprocess.run([TOOL, *shlex.split(command.replace("@", "")), "-j", "2", "--no-progress"], cwd=folder, capture_output=True, text=True)
             said.append([done.returncode, re.sub(r"\d+\.\d\d s|[\d.]+ [MGk]i?B\b", "", done.stderr)])
         files = sorted(path for path in folder.rglob("*") if path.is_file() and not path.is_symlink() and path.name not in FILES and not path.name.startswith("p.")
                        and not path.name.startswith("."))

@@ -161,6 +161,9 @@ class Bricks(ToolTest):
         self.plan(3, "--force", "--probe", "1.5")
         self.check(1, "bricks", "merge", "plan.json", "-o", "m.ply", says="belongs to another plan")
         self.check(1, "bricks", "run", "plan.json", 1, says="belongs to another plan")
+        self.check(0, "bricks", "run", "plan.json", 1, "--force")
+        shutil.copy(self.folder / "plan.1.brick", self.folder / "plan.2.brick")  # it has another number
+        self.check(1, "bricks", "run", "plan.json", 2, says="plan.2.brick belongs to another plan")
         self.assertNotIn("m.ply", self.names())
 
     def test_from_any_folder(self):

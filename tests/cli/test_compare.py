@@ -57,6 +57,15 @@ class Spheres(CompareTest):
         area = json.loads((self.folder / f"{name}.json").read_text())["surface"]["area"]
         return math.sqrt(area / (4 * math.pi))
 
+    def test_surfaces_beside_each_other_are_named(self):
+        """Spheres of 2 Å: half of the diagonal of their boxes is 3.46 Å."""
+        for apart in (3.3, 3.6):
+            self.atom("a.xyzr", (0, 0, 0, 2))
+            self.atom("b.xyzr", (apart, 0, 0, 2))
+            said = self.check(0, "compare", "a.xyzr", "b.xyzr", "--surface", "vdw", "--voxel", "0.3", "-o", "r.json", "--force").stderr.decode()
+            warns = f"A and B lie {apart:.1f} Å apart, more than half of their size [hint: --superpose auto" in said
+            self.assertEqual(warns, apart > 3.46, said)
+
     def test_every_vertex_of_a_shifted_sphere(self):
         self.check(0, "compare", "large.vdb", "shifted.vdb", "-o", "d.ply")
         names, vertices, _ = read_ply((self.folder / "d.ply").read_bytes())

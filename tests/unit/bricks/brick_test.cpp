@@ -598,6 +598,90 @@ TEST_F(HostileBricks, OthersGroupsAreRefused)
     expectRefused("groups are others");
 }
 
+TEST_F(HostileBricks, OthersNumbersAreRefused)
+{
+    OutputFile file(pathOf(0), true);
+    writeBrick(bricks[0], "test", 2, true, file, progress);
+    file.commit();
+    expectRefused("belongs to another plan");
+}
+
+TEST_F(HostileBricks, OthersPrecisionIsRefused)
+{
+    for (const auto& grid : bricks[1].grids) grid->setSaveFloatAsHalf(true);
+    write(1);
+    expectRefused("grids or groups are others");
+    for (const auto& grid : bricks[0].grids) grid->setSaveFloatAsHalf(true);
+    write(0);
+    EXPECT_EQ(merged(), "");
+}
+
+// Areas are sums, brought to the area of the whole; the atoms of no group are the rest, and without
+// any it is no group.
+TEST_F(HostileBricks, GroupsAreSums)
+{
+    for (const std::size_t second : {4u, 7u}) {
+        for (const std::size_t k : {0u, 1u}) {
+            bricks[k].groups.resize(3);
+            const double areas[2][3] = {{30.0, 10.0, 0.0}, {5.0, 50.0, second == 4 ? 5.0 : 0.0}};
+            for (std::size_t g = 0; g < 3; ++g) bricks[k].groups[g].area = areas[k][g];
+            bricks[k].groups[0].name = "one";
+            bricks[k].groups[0].atoms = 5;
+            bricks[k].groups[1].name = "two";
+            bricks[k].groups[1].atoms = second;
+            bricks[k].groups[1].color = k == 1 ? "#010203" : "";
+            write(k);
+        }
+        const Report report =
+            MergedBricks({pathOf(0), pathOf(1)}, "test", plan, options, true).report();
+        ASSERT_EQ(report.groups.size(), second == 4 ? 3u : 2u);
+        const double all = second == 4 ? 100.0 : 95.0, whole = report.surface.area;
+        EXPECT_NEAR(report.groups[0].area, 35.0 / all * whole, 1e-9 * whole);
+        EXPECT_NEAR(report.groups[1].area, 60.0 / all * whole, 1e-9 * whole);
+        EXPECT_EQ(report.groups[0].atoms, 5u);
+        EXPECT_EQ(report.groups[1].atoms, second);
+        EXPECT_EQ(report.groups[1].color, "#010203");
+        EXPECT_TRUE(std::isnan(report.groups[0].volume));
+        if (second == 4) {
+            EXPECT_EQ(report.groups[2].atoms, 3u);
+        }
+    }
+}
+
+// Energies, areas and volumes of a step are sums, its displacement the mean over the area, its
+// speed the largest.
+TEST_F(HostileBricks, StepsAreSums)
+{
+    for (const std::size_t k : {0u, 1u}) {
+        EvolutionReport& part = *bricks[k].evolution;
+        ASSERT_GE(part.area.size(), 2u);
+        part.area[0] = k == 0 ? 30.0 : 10.0;
+        part.meanDisplacement[0] = k == 0 ? 0.1 : 0.5;
+        part.area[1] = 0.0;
+        part.meanDisplacement[1] = 0.25;
+        part.maxSpeed[0] = k == 0 ? 0.7 : 0.3;
+        write(k);
+    }
+    const Report report =
+        MergedBricks({pathOf(0), pathOf(1)}, "test", plan, options, true).report();
+    ASSERT_TRUE(report.evolution);
+    const EvolutionReport &all = *report.evolution, &one = *bricks[0].evolution,
+                          &two = *bricks[1].evolution;
+    EXPECT_EQ(all.steps, 2);
+    EXPECT_NEAR(all.finalEnergy, one.finalEnergy + two.finalEnergy, 1e-9);
+    ASSERT_EQ(all.energy.size(), one.energy.size());
+    for (std::size_t i = 0; i < one.energy.size(); ++i)
+        EXPECT_NEAR(all.energy[i], one.energy[i] + two.energy[i], 1e-9) << i;
+    ASSERT_EQ(all.volume.size(), one.volume.size());
+    for (std::size_t i = 0; i < one.volume.size(); ++i) {
+        EXPECT_NEAR(all.volume[i], one.volume[i] + two.volume[i], 1e-9) << i;
+        EXPECT_NEAR(all.area[i], one.area[i] + two.area[i], 1e-9) << i;
+    }
+    EXPECT_EQ(all.maxSpeed[0], 0.7);
+    EXPECT_NEAR(all.meanDisplacement[0], (30.0 * 0.1 + 10.0 * 0.5) / 40.0, 1e-12);
+    EXPECT_EQ(all.meanDisplacement[1], 0.0); // there is no area
+}
+
 TEST_F(HostileBricks, StepsWithoutSumsAreRefused)
 {
     bricks[0].evolution->area.pop_back();

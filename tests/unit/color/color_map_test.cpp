@@ -37,5 +37,20 @@ TEST(ColorScale, EndsMiddleAndBeyond)
     EXPECT_GT(both.at(-2.0)[2], both.at(-2.0)[0]); // blue inside
 }
 
+// In steps each stop has its own colour from its value on, whatever rounding does to that.
+TEST(ColorScale, AStepBeginsAtItsValue)
+{
+    ColorScale scale{"steps", 0.0, 100.0, {}, true};
+    for (int i = 0; i <= 100; ++i) scale.stops.push_back({std::uint8_t(i), 0, 0});
+    for (const double size : {1.0, 0.01, 0.7, 30.0}) {
+        scale.low = -3.0 * size;
+        scale.high = 97.0 * size;
+        for (int i = 0; i <= 100; ++i) {
+            EXPECT_EQ(scale.at((i - 3) * size), scale.stops[std::size_t(i)]) << i << " " << size;
+            EXPECT_EQ(scale.at((i - 2.001) * size), scale.stops[std::size_t(i)]) << i;
+        }
+    }
+}
+
 } // namespace
 } // namespace molsurf

@@ -128,5 +128,37 @@ TEST(Palette, OneMoreSharesAndSaysSo)
     EXPECT_EQ(std::set<Color>(shared.begin(), shared.end()).size(), 8u);
 }
 
+/// Copies of a cube of four atoms, with an edge of 10 Å.
+BallSet cubesAt(const std::vector<Vec3d>& places)
+{
+    BallSet atoms;
+    for (const Vec3d& corner :
+         {Vec3d(5, 5, 5), Vec3d(-5, -5, 5), Vec3d(-5, 5, -5), Vec3d(5, -5, -5)})
+        atoms.balls.push_back({corner, 1.5, std::int32_t(atoms.balls.size())});
+    atoms.placement.begin = {0, 4};
+    atoms.placement.numbers = {1};
+    for (const Vec3d& place : places) {
+        Instance copy{Motion::identity(), 0, ""};
+        copy.translation = place;
+        atoms.placement.instances.push_back(copy);
+    }
+    return atoms;
+}
+
+// Of more copies than there are colours those beside each other differ: cubes that touch by faces,
+// as far as 0.7 of their diagonals, 12.1 Å, go.
+TEST(Palette, CopiesBesideEachOtherDiffer)
+{
+    for (const double apart : {10.0, 12.0, 12.3}) {
+        std::vector<Vec3d> places;
+        for (int i = 0; i < 45; ++i) places.emplace_back(1000.0 * i, 0.0, 0.0);
+        const std::vector<Color> alone = instanceColors(cubesAt(places), Progress());
+        EXPECT_EQ(alone[0], alone[8]); // eight colours in turn
+        places[8] = Vec3d(0.0, apart, 0.0);
+        const std::vector<Color> beside = instanceColors(cubesAt(places), Progress());
+        EXPECT_EQ(beside[0] != beside[8], apart < 12.1) << apart;
+    }
+}
+
 } // namespace
 } // namespace molsurf

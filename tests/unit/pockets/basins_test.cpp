@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/analysis/pockets/basins.h"
+#include "molsurf/analysis/pockets/measure_basins.h"
 
 #include <gtest/gtest.h>
 
@@ -132,6 +133,38 @@ TEST(Basins, WhatDoesNotHangTogetherStaysApart)
         EXPECT_TRUE(apart.rooms.basins.necks.empty());
         EXPECT_NE(apart.at({-8.5, 0.0, 0.0}), apart.at({8.5, 0.0, 0.0}));
     }
+}
+
+// By voxels, too, the way to a mouth is as wide as where it is narrowest: a ring in a tunnel that
+// is wider on both sides of it.
+TEST(Basins, AMouthByVoxelsIsAsWideAsTheWayToIt)
+{
+    std::vector<Ball> balls;
+    for (double x = -9.0; x <= 11.0; x += 1.0)
+        for (double y = -8.0; y <= 8.0; y += 1.0)
+            for (double z = -8.0; z <= 8.0; z += 1.0)
+                if (std::max({std::abs(x), std::abs(y), std::abs(z)}) >= 4.5 &&
+                    (x < 0.0 || std::hypot(y, z) >= 4.3))
+                    balls.push_back({Vec3d(x, y, z), 1.5, std::int32_t(balls.size())});
+    for (int k = 0; k < 12; ++k) {
+        const double angle = M_PI * k / 6.0;
+        balls.push_back({Vec3d(6.13, 3.6 * std::cos(angle), 3.6 * std::sin(angle)), 1.5,
+                         std::int32_t(balls.size())});
+    }
+    const Split split(balls, 0.0);
+    ASSERT_EQ(split.count(), 1u);
+    const std::vector<BasinMeasure> measures =
+        measureBasins(split.space, split.rooms.basins, Progress());
+    ASSERT_FALSE(measures[0].mouths.empty());
+    const BasinMeasure::Mouth& mouth =
+        *std::max_element(measures[0].mouths.begin(), measures[0].mouths.end(),
+                          [](const auto& a, const auto& b) { return a.area < b.area; });
+    EXPECT_LT(mouth.radius, 3.6 - 1.5 + 0.01);
+    EXPECT_GT(mouth.radius, 3.6 - 1.5 - 0.5);
+    EXPECT_NEAR(mouth.narrowest[0], 6.13, 0.5);
+    EXPECT_LT(std::hypot(mouth.narrowest[1], mouth.narrowest[2]), 0.5);
+    EXPECT_GT(mouth.widest, mouth.radius + 0.2);
+    EXPECT_NEAR(measures[0].widest.length(), 0.0, 0.9);
 }
 
 // What belongs to a room does not depend on voxels.

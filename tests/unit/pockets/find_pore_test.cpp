@@ -356,7 +356,7 @@ TEST(FindPore, WindowsAreNoWayThrough)
 // The wider of two tubes is the pore, the other one another way; two that are as wide are a bundle.
 TEST(FindPore, TheWiderOfTwoTubesIsThePore)
 {
-    for (const double other : {3.2, 4.6}) {
+    for (const double other : {3.2, 4.0, 4.6}) {
         std::vector<Ball> balls;
         for (double z = -9.0; z <= 9.0; z += 1.5)
             for (double x = -17.0; x <= 17.0; x += 1.5)
@@ -368,8 +368,93 @@ TEST(FindPore, TheWiderOfTwoTubesIsThePore)
         const Report::Pore pore = findPore(balls, {{}, Vec3d(0.0, 0.0, 1.0)}, nobody);
         EXPECT_GT(pore.narrowest(), 4.6) << other;
         EXPECT_EQ(pore.bundle.size() + pore.others.size(), 1u) << other;
-        EXPECT_EQ(pore.bundle.size(), other > 4.0 ? 1u : 0u) << other;
+        double narrowest[2] = {1e9, 1e9}; // of both tubes, on their axes
+        for (double z = -9.0; z <= 9.0; z += 0.05)
+            for (const int k : {0, 1})
+                narrowest[k] = std::min(narrowest[k], roomAmong(balls, {k ? -8.0 : 8.0, 0.0, z}));
+        EXPECT_EQ(pore.bundle.size(), narrowest[1] > 0.95 * narrowest[0] ? 1u : 0u) << other;
+        for (const auto& one : pore.others) EXPECT_NEAR(one.radius, narrowest[1], 0.1) << other;
     }
+}
+
+// An end in an atom goes to the room beside it, not 3 Å along a tube whose radius grows there by
+// 0.09 Å: of two places the one with more room, less 0.2 Å for each Å of way, counts.
+TEST(FindPore, AnEndInAnAtomStaysNearIt)
+{
+    const Tube tube{[](double h) { return 3.9 + 0.03 * (h + 4.0); }};
+    const std::vector<Ball> balls = tube.balls();
+    const Vec3d first = balls[5 * 16].center; // of the ring at -4 Å
+    const Report::Pore pore =
+        findPore(balls, {{{first, false}, {tube.at(0.0, 0.0, 6.0), true}}, Vec3d(0.0)}, nobody);
+    const Vec3d start = placeOf(pore.stations.front());
+    EXPECT_NEAR((start - tube.middle).dot(tube.axis), -4.0, 1.5);
+    EXPECT_GT(pore.stations.front().radius, 2.0); // in the middle of the tube
+}
+
+// A pore that narrows up to its end is narrowest there, and is crossed as far as it lies in the
+// molecule.
+TEST(FindPore, AnEndMayBeTheNeck)
+{
+    std::vector<Report::Pore::Station> narrowing(4);
+    for (std::size_t i = 0; i < 4; ++i) narrowing[i].radius = 4.0 - 0.5 * double(i);
+    EXPECT_EQ(necksOf(narrowing), std::vector<std::size_t>{3});
+    narrowing[1].radius = 2.7; // a neck, though no narrower than the end
+    narrowing[3].radius = 2.5;
+    EXPECT_EQ(necksOf(narrowing), (std::vector<std::size_t>{1, 3}));
+    narrowing[1].radius = 2.95; // which is not 0.1 Å narrower than what follows
+    EXPECT_EQ(necksOf(narrowing), std::vector<std::size_t>{3});
+}
+
+TEST(FindPore, IsCrossedAsFarAsItLiesInTheMolecule)
+{
+    const Tube tube{[](double) { return 4.0; }}; // from -10.7 to 10.7 Å
+    const auto crossed = [&](double from, double to) {
+        return findPore(
+                   tube.balls(),
+                   {{{tube.at(0.0, 0.0, from), true}, {tube.at(0.0, 0.0, to), true}}, Vec3d(0.0)},
+                   nobody)
+            .crossed;
+    };
+    EXPECT_NEAR(crossed(-15.0, 0.0), 0.5, 0.02);
+    EXPECT_NEAR(crossed(0.0, 15.0), 0.5, 0.02);
+    EXPECT_NEAR(crossed(-5.35, 5.35), 0.5, 0.02);
+    EXPECT_NEAR(crossed(-15.0, 15.0), 1.0, 1e-9);
+}
+
+// A bay of 5 Å beside a tube of 3.7 Å, behind a strait that is an Å narrower than the tube, is not
+// of its sections. (Of balls of 3 Å nothing passes between those of a lattice.)
+TEST(FindPore, ABayBehindAStraitIsNotOfTheSection)
+{
+    std::vector<Ball> balls;
+    for (double x = -9.0; x <= 17.0; x += 1.0)
+        for (double y = -10.0; y <= 10.0; y += 1.0)
+            for (double z = -10.0; z <= 10.0; z += 1.0) {
+                const double ofTube = std::hypot(x, y) - 6.5,
+                             ofBay = Vec3d(x - 7.0, y, z).length() - 8.0;
+                const double outside = std::min(ofTube, ofBay);
+                if (outside >= 0.0 && outside < 2.0)
+                    balls.push_back({{x, y, z}, 3.0, int(balls.size())});
+            }
+    for (double z = -7.0; z <= 7.0; z += 1.0)
+        for (const double y : {-5.5, 5.5}) balls.push_back({{3.2, y, z}, 3.0, int(balls.size())});
+    const Vec3d from(-0.2, 0.0, -8.0), to(-0.2, 0.0, 8.0);
+    const Report::Pore pore = findPore(balls, {{{from, true}, {to, true}}, Vec3d(0.0)}, nobody);
+    const Clearance clearance(balls);
+    std::size_t seen = 0;
+    for (const Report::Pore::Station& station : pore.stations) {
+        const Vec3d x = placeOf(station);
+        if (std::abs(x[2]) > 0.5) continue;
+        ++seen;
+        EXPECT_LT(x[0], 2.0);
+        double widest = 0.0; // of the section on this side of the strait
+        for (double a = -2.0; a <= 2.0; a += 0.05)
+            for (double b = -1.5; b <= 1.5; b += 0.05)
+                widest = std::max(widest, clearance.at({a, b, x[2]}));
+        EXPECT_NEAR(station.radius, widest, 0.02) << x;
+        EXPECT_NEAR(clearance.at({3.2, 0.0, x[2]}), 2.5, 0.05);   // the strait is narrower
+        EXPECT_GT(clearance.at({7.8, 0.0, x[2]}), widest + 0.25); // the bay is wider
+    }
+    EXPECT_GT(seen, 2u);
 }
 
 // However far the nearest ball is, and whatever the class of its radius.
@@ -425,6 +510,8 @@ TEST(Clearance, AHeldBallTouchesThreeFromAllSides)
         const auto neck = clearance.neckNear(middle + Vec3d(0.1, -0.2, 0.3), 0.5, 5.0);
         EXPECT_EQ(bool(widest), held);
         EXPECT_EQ(bool(neck), held);
+        EXPECT_FALSE(clearance.neckNear(middle + Vec3d(0.1, -0.2, 0.3), 0.5, 1.9)); // it has 2 Å
+        EXPECT_FALSE(clearance.neckNear(middle + Vec3d(0.1, -0.2, 0.6), 0.5, 5.0)); // too far
         for (const auto& found : {widest, neck}) {
             if (!found) continue;
             EXPECT_LT((found->place - middle).length(), 1e-9);

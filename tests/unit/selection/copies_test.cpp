@@ -54,6 +54,26 @@ void expectRing(const std::vector<Ball>& balls, int fold, const Vec3d& direction
     }
 }
 
+// Of axes that are as near, to 0.01 Å, it is the first.
+TEST(Copies, AboutTheNearestAxis)
+{
+    Symmetry symmetry;
+    symmetry.centre = Vec3d(1.0, 2.0, 3.0);
+    symmetry.axes = {{2, Vec3d(0.0, 0.0, 1.0), {}},
+                     {2, Vec3d(1.0, 0.0, 0.0), {}},
+                     {3, Vec3d(0.0, 1.0, 0.0), {}}};
+    const auto nearest = [&](int fold, double x, double z) {
+        const RotationAxis* found = nearestAxis(symmetry, fold, symmetry.centre + Vec3d(x, 0.0, z));
+        return found ? found - symmetry.axes.data() : -1;
+    };
+    EXPECT_EQ(nearest(2, 5.0, 5.0), 0);   // 5 Å from both
+    EXPECT_EQ(nearest(2, 5.0, 4.995), 0); // 5 and 4.995 Å
+    EXPECT_EQ(nearest(2, 5.0, 4.98), 1);
+    EXPECT_EQ(nearest(2, 4.9, 5.0), 0);
+    EXPECT_EQ(nearest(3, 5.0, 4.0), 2);
+    EXPECT_EQ(nearest(4, 5.0, 4.0), -1);
+}
+
 TEST(Copies, AboutTheAxesOfTheIcosahedron)
 {
     const Structure s = withAssembly(icosahedral());

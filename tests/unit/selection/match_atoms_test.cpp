@@ -90,5 +90,30 @@ TEST(MatchAtomsModels, SelectsInTheNamedModel)
     }
 }
 
+// Those that ask for places keep the atoms that they had, by their order in each model, without the
+// warnings that were given when they were found; others follow their models.
+TEST(MatchAtomsModels, KeepsWhatHasPlaces)
+{
+    const Structure s = readStructure(dataFile("1d3z.pdb.gz"));
+    const std::string near = "within 4 of resid 40 | chain Q", plain = "resid 40 | chain Q";
+    Selections selections(s);
+    const Model& second = s.models[1];
+    selections.keep({near, plain, "", "chain Q"}, second);
+    const AtomMatch fresh = matchAtoms(s, near), kept = selections.match(near);
+    ASSERT_FALSE(fresh.warnings.empty());
+    EXPECT_TRUE(kept.warnings.empty());
+    EXPECT_EQ(kept.models, std::vector<int>{0});
+    EXPECT_FALSE(selections.match(plain).warnings.empty());
+    std::size_t others = 0;
+    for (const Model& model : s.models)
+        for (std::size_t i = 0; i < model.end - model.begin; ++i) {
+            EXPECT_EQ(kept.atoms[model.begin + i], fresh.atoms[second.begin + i]);
+            others += kept.atoms[model.begin + i] != fresh.atoms[model.begin + i];
+        }
+    EXPECT_GT(others, 0u); // in other models other atoms are near
+    selections.forgetPlaces();
+    EXPECT_EQ(selections.match(near).atoms, fresh.atoms);
+}
+
 } // namespace
 } // namespace molsurf::test

@@ -70,10 +70,10 @@ TEST(Membrane, IsThatOfDummies)
 }
 
 /// Two leaves of lipids, or lipids that lie in all directions.
-Lines lipids(double angle, bool flat, bool twoHeads = false)
+Lines lipids(double angle, bool flat, bool twoHeads = false, int count = 40)
 {
     Lines lines(angle);
-    for (int n = 0; n < 40; ++n) {
+    for (int n = 0; n < count; ++n) {
         const double z = 1.0 - (2.0 * n + 1.0) / 40.0, across = std::sqrt(1.0 - z * z);
         Vec3d way(across * std::cos(2.4 * n), across * std::sin(2.4 * n), z); // from the middle
         if (flat) way = Vec3d(0.2 * way[0], 0.2 * way[1], n % 2 ? 1.0 : -1.0).unit();
@@ -97,6 +97,28 @@ TEST(Membrane, IsThatOfLipids)
 TEST(Membrane, NeedsLipidsOfOneHead)
 {
     EXPECT_FALSE(lipids(0.4, true, true).read().record.membrane);
+}
+
+TEST(Membrane, NeedsSixteenLipids)
+{
+    EXPECT_FALSE(lipids(0.4, true, false, 15).read().record.membrane);
+    const Lines lines = lipids(0.4, true, false, 16);
+    ASSERT_TRUE(lines.read().record.membrane);
+    EXPECT_LT(degreesBetween(*lines.read().record.membrane, lines.turned({0, 0, 1})), 5.0);
+}
+
+// Planes of dummies that are nearer to each other than 10 Å are of no membrane.
+TEST(Membrane, OfDummiesIsTenAngstromThick)
+{
+    for (const double half : {4.9, 5.1}) {
+        Lines lines;
+        lines.add("CA", "ALA", 1, {0, 0, 0});
+        int number = 1;
+        for (const double z : {-half, half})
+            for (int i = 0; i < 4; ++i)
+                lines.add(z < 0.0 ? "N" : "O", "DUM", ++number, {4.0 * i, 3.0 * (i % 2), z});
+        EXPECT_EQ(bool(lines.read().record.membrane), half > 5.0) << half;
+    }
 }
 
 TEST(Membrane, OfAProteinIsNone)

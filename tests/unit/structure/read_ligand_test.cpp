@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/molecule/structure/read_structure.h"
+#include "molsurf/molecule/structure/readers.h"
 #include "unit/structure/temp_file.h"
 
 namespace molsurf::test
@@ -259,6 +260,29 @@ TEST(ReadXyz, ReadsFramesAndColumns)
     EXPECT_HAS(ligandError("2\n\nO 0 0 0\n", "a.xyz"),
                "cut short after line 3: expected atom 2 of 2");
     EXPECT_HAS(ligandError("two\n\nO 0 0 0\n", "a.xyz"), "expected");
+}
+
+// Columns are found by their names, in quotes or not, wherever they lie; what is damaged is not
+// followed.
+TEST(ReadXyz, ColumnsAreFoundByTheirNames)
+{
+    const auto first = [](const std::string& properties, const std::string& line) {
+        const Structure s =
+            readXyz("1\nenergy=1 " + properties + " pbc=\"F F F\"\n" + line + "\n", "a.xyz");
+        return std::pair(int(s.atoms[0].element), s.atoms[0].position);
+    };
+    const auto nitrogen = std::pair(7, openvdb::Vec3d(1, 2, 3));
+    for (const char* quote : {"", "\""}) {
+        const auto quoted = [&](const std::string& list) {
+            return "Properties=" + (quote + list) + quote;
+        };
+        EXPECT_EQ(first(quoted("species:S:1:pos:R:3"), "N 1 2 3"), nitrogen);
+        EXPECT_EQ(first(quoted("pos:R:3:species:S:1"), "1 2 3 N"), nitrogen);
+        EXPECT_EQ(first(quoted("forces:R:3:element:S:1:q:R:1:pos:R:3"), "9 9 9 N 8 1 2 3"),
+                  nitrogen);
+        EXPECT_EQ(first(quoted("q:R:0:species:S:1:pos:R:3"), "N 1 2 3"), nitrogen);
+        EXPECT_EQ(first(quoted("q:R:x:species:S:1:pos:R:3"), "N 1 2 3"), nitrogen);
+    }
 }
 
 TEST(ReadMol2, MoleculesAreModelsAndWrongLinesAreNamed)

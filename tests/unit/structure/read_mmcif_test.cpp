@@ -561,6 +561,22 @@ TEST(ReadMmcif, CrystalsOfSmallMolecules)
     const Structure half = readMmcif(crystal("C1 C 0.07 0 0 .\n"));
     ASSERT_EQ(half.warnings.size(), 1u);
     EXPECT_HAS(half.warnings[0], "the asymmetric unit is read alone");
+    // On the centre it is its own copy; 2.4 Å from that no carbon is bonded to another.
+    EXPECT_TRUE(readMmcif(crystal("C1 C 0 0 0 .\n")).warnings.empty());
+    EXPECT_TRUE(readMmcif(crystal("C1 C 0.12 0 0 .\n")).warnings.empty());
+}
+
+// B = 8 pi^2 U.
+TEST(ReadMmcif, CrystalsHaveTemperatureFactors)
+{
+    const Structure s = readMmcif(
+        "data_I\n_cell_length_a 10\n_cell_length_b 20\n_cell_length_c 30\n_cell_angle_alpha 90\n"
+        "_cell_angle_beta 90\n_cell_angle_gamma 90\n_symmetry_space_group_name_H-M 'P 1'\nloop_\n"
+        "_atom_site_label\n_atom_site_type_symbol\n_atom_site_fract_x\n_atom_site_fract_y\n"
+        "_atom_site_fract_z\n_atom_site_U_iso_or_equiv\n_atom_site_occupancy\n"
+        "C1 C 0.3 0.25 0.5 0.05 0.75\n");
+    EXPECT_NEAR(s.atoms[0].bFactor, 3.9478, 1e-3);
+    EXPECT_EQ(s.atoms[0].occupancy, 0.75f);
 }
 
 TEST(ReadMmcif, CommentsAndModelsMayStandBetweenRows)

@@ -111,6 +111,18 @@ TEST(ReadPsf, ReadsAtomsWithoutPlaces)
     EXPECT_TRUE(s.residues[4].water());
 }
 
+// Lone pairs have no mass, Drude particles 0.4 u; the lightest atoms have 1.
+TEST(ReadPsf, ParticlesHaveNearlyNoMass)
+{
+    for (const char* mass : {"0.0000", "0.4000", "0.6000"}) {
+        std::string text = psf;
+        text.replace(text.find("1.0080"), 6, mass);
+        EXPECT_EQ(readAs("a.psf", text).atoms.back().role,
+                  mass[2] == '6' ? AtomRole::Atom : AtomRole::Particle)
+            << mass;
+    }
+}
+
 TEST(ReadPsf, NamesTheLineThatIsWrong)
 {
     EXPECT_HAS(errorAs("a.psf", "PSF\n\n 1 !NTITLE\n"), "expected the section !NATOM");

@@ -144,6 +144,30 @@ TEST(SurfaceDistance, OfUnionsIsThatOfASearchThroughAllBalls)
     }
 }
 
+// Of balls that are equally near it is the first one.
+TEST(SurfaceDistance, OfBallsAsNearTheFirstIsMeant)
+{
+    for (const double away : {2.5, 6.0, 40.0}) {
+        BallSet atoms;
+        for (const double side : {away, -away}) // in one order, then in the other
+            for (int axis = 0; axis < 3; ++axis) {
+                Vec3d x(0.0);
+                x[axis] = side;
+                atoms.balls.push_back({x, 1.5, std::int32_t(atoms.balls.size())});
+            }
+        SurfaceOptions options;
+        options.kind = SurfaceKind::VanDerWaals;
+        options.grid = false;
+        for (int turn = 0; turn < 6; ++turn) {
+            const SurfaceDistance to(atoms, options, makeSurface(atoms, options));
+            const PointDistance found = to.at({Vec3d(0.0)})[0];
+            EXPECT_EQ(found.ball, 0) << away << " " << turn;
+            EXPECT_NEAR(found.distance, away - 1.5, 1e-12);
+            std::rotate(atoms.balls.begin(), atoms.balls.begin() + 1, atoms.balls.end());
+        }
+    }
+}
+
 TEST(SurfaceDistance, FarFromEverythingIsExact)
 {
     BallSet atoms;

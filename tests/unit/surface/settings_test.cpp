@@ -2,7 +2,9 @@
 // The table of settings: every row sets and gives back what it says.
 
 #include "molsurf/error.h"
+#include "molsurf/kernel/flow/evolve.h"
 #include "molsurf/molecule/selection/groups.h"
+#include "molsurf/request/resolve.h"
 #include "molsurf/settings.h"
 
 #include <gtest/gtest.h>
@@ -154,6 +156,37 @@ TEST(Settings, AColorSaysWhatElseItNeeds)
     row("color").set(settings, {"Table=Values.csv"});
     EXPECT_EQ(settings.labels.valueBy->file, "Values.csv");
     EXPECT_EQ(row("color").file("table=Values.csv"), 6u);
+}
+
+// Warnings name settings that change none of the surfaces, and lengths that voxels do not resolve.
+TEST(Settings, ThatChangeNothingAreNamed)
+{
+    const auto warningsOf = [](const Settings& settings, const std::string& given,
+                               const std::vector<SurfaceKind>& more = {}) {
+        return settingWarnings(
+            settings, [&](const char* name) { return given == name; }, more);
+    };
+    Settings settings;
+    settings.options.voxel = 0.8;
+    settings.options.epsilon = 0.39;
+    EXPECT_EQ(
+        warningsOf(settings, "epsilon"),
+        std::vector<std::string>{"`epsilon` 0.39: a tolerance below half a voxel is not resolved"});
+    EXPECT_TRUE(warningsOf(settings, "").empty());
+    settings.options.epsilon = 0.4;
+    EXPECT_TRUE(warningsOf(settings, "epsilon").empty());
+    settings.options.kind = SurfaceKind::SolventExcluded;
+    ASSERT_EQ(warningsOf(settings, "epsilon").size(), 1u);
+    EXPECT_EQ(warningsOf(settings, "epsilon")[0].find("`epsilon` is for `surface` variational"),
+              0u);
+    EXPECT_TRUE(warningsOf(settings, "epsilon", {SurfaceKind::Variational}).empty());
+    settings.options.surfaceOf = {{"core", SurfaceKind::Variational}};
+    EXPECT_TRUE(warningsOf(settings, "epsilon").empty());
+    settings.options.voxel = coarseVoxel;
+    EXPECT_TRUE(warningsOf(settings, "").empty());
+    settings.options.voxel = coarseVoxel + 0.25;
+    ASSERT_EQ(warningsOf(settings, "").size(), 1u);
+    EXPECT_NE(warningsOf(settings, "")[0].find("cannot show the atoms"), std::string::npos);
 }
 
 } // namespace

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 // Tables of areas, as callers of the face have them.
 
+#include "molsurf/analysis/measures/lining.h"
+#include "molsurf/analysis/measures/polarity.h"
 #include "molsurf/error.h"
 #include "molsurf/surface.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -51,6 +54,150 @@ std::string usageOf(const std::function<void()>& call)
         return e.what();
     }
     return "taken";
+}
+
+// Tien's maxima are of a probe of 1.4 Å and of the solvent-accessible surface.
+TEST(Tables, RelativeAccessibilityIsOfItsProbe)
+{
+    const BallSet atoms = named("1crn.pdb");
+    const auto has = [&](double probe, const MolecularSurface& result) {
+        const Table table = residueTable(atoms, probe, result);
+        return std::any_of(table.columns.begin(), table.columns.end(),
+                           [](const auto& c) { return c.name == "relative_accessibility"; });
+    };
+    const MolecularSurface result = makeSurface(atoms, exact());
+    EXPECT_TRUE(has(1.4, result));
+    EXPECT_FALSE(has(1.5, result));
+    SurfaceOptions other = exact();
+    other.kind = SurfaceKind::VanDerWaals;
+    other.contacts = false;
+    EXPECT_FALSE(has(1.4, makeSurface(atoms, other)));
+}
+
+/// A ball of each of some residues.
+BallSet residuesNamed(const std::vector<std::string>& all)
+{
+    BallSet atoms;
+    BallNames& names = atoms.names.emplace();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        atoms.balls.push_back({{4.0 * double(i), 0.0, 0.0}, 1.5, std::int32_t(10 + i)});
+        names.atoms.push_back({"CA", '\0', 6, 1.0f});
+        names.residueOf.push_back(std::int32_t(i));
+        names.residues.push_back({"A", "A", all[i], int(i) + 1, ' ', false});
+    }
+    return atoms;
+}
+
+// Kyte and Doolittle: Lys -3.9, Arg -4.5, Asp and Glu -3.5, Ala 1.8. Protonated Asp and neutral
+// Lys, as force fields name them, have the values of their parents, but no charge.
+TEST(Tables, ALiningHasTheChargeAndTheMeanOfItsResidues)
+{
+    const BallSet atoms = residuesNamed({"LYS", "ARG", "ASP", "ALA", "LYN", "HEM", "GLU", "ASH"});
+    const Lining one = liningOf(atoms, {{0, 1.0}, {3, 3.0}});
+    EXPECT_NEAR(one.hydrophobicity, (-3.9 + 3.0 * 1.8) / 4.0, 1e-6);
+    EXPECT_EQ(one.charge, 1.0);
+    EXPECT_EQ(one.residues, "A/LYS1 A/ALA4");
+    EXPECT_EQ(one.atoms, "10 13");
+    EXPECT_EQ(liningOf(atoms, {{0, 1.0}, {1, 1.0}, {4, 1.0}, {2, 1.0}}).charge, 1.0);
+    EXPECT_EQ(liningOf(atoms, {{6, 1.0}, {2, 1.0}, {7, 1.0}}).charge, -2.0);
+    EXPECT_NEAR(liningOf(atoms, {{7, 1.0}, {4, 1.0}}).hydrophobicity, -3.7, 1e-6);
+    const Lining mixed = liningOf(atoms, {{5, 7.0}, {3, 1.0}}); // a haem has no value
+    EXPECT_NEAR(mixed.hydrophobicity, 1.8, 1e-6);
+    EXPECT_EQ(mixed.charge, 0.0);
+    const Lining none = liningOf(atoms, {{5, 1.0}});
+    EXPECT_TRUE(std::isnan(none.hydrophobicity) && std::isnan(none.charge));
+    EXPECT_EQ(none.residues, "A/HEM6");
+}
+
+// What lines a tunnel counts by the length of the way beside it: half of that to either station.
+TEST(Tables, TheLiningOfATunnelIsWeighedByLength)
+{
+    const BallSet atoms = residuesNamed({"LYS", "ALA"});
+    Report::Tunnels::Tunnel tunnel;
+    tunnel.stations.resize(3);
+    tunnel.stations[1].distance = 1.0;
+    tunnel.stations[2].distance = 4.0;
+    tunnel.stations[0].lining = {0};    // 0.5 Å
+    tunnel.stations[1].lining = {0, 1}; // 2 Å
+    tunnel.stations[2].lining = {1};    // 1.5 Å
+    EXPECT_NEAR(liningOfTunnel(atoms, tunnel).hydrophobicity, (-3.9 * 2.5 + 1.8 * 3.5) / 6.0, 1e-6);
+}
+
+// A row has the mouth by which the largest ball gets out, and the area of all.
+TEST(Tables, APocketHasItsWidestMouth)
+{
+    const BallSet atoms = residuesNamed({"LYS", "ALA"});
+    Report::Pockets pockets;
+    pockets.probeIn = 1.4;
+    pockets.list.emplace_back();
+    Report::Pockets::Pocket& pocket = pockets.list[0];
+    pocket.volume = 123.4567891;
+    pocket.mouths = {{30.0, 1.5, {1.0, 2.0, 3.0}}, {20.0, 2.5, {4.0, 5.0, 6.0}}, {5.0, 2.0, {}}};
+    pocket.lining = {{1, 3.0}, {0, 1.0}};
+    pocket.neighbours = {3, 5};
+    pocket.rank = 2;
+    pocket.open = true;
+    const Table table = pockets.table(atoms);
+    const auto number = [&](const char* name) { return column<double>(table, name)[0]; };
+    EXPECT_EQ(number("volume"), 123.4568);
+    EXPECT_EQ(number("mouth_area"), 55.0);
+    EXPECT_EQ(number("mouth_radius_A"), 2.5);
+    EXPECT_EQ(number("mouth_y_A"), 5.0);
+    EXPECT_EQ(number("probe_in_A"), 1.4);
+    EXPECT_NEAR(number("hydrophobicity"), (3.0 * 1.8 - 3.9) / 4.0, 1e-6);
+    EXPECT_EQ(number("charge"), 1.0);
+    EXPECT_EQ(column<std::int64_t>(table, "mouths")[0], 3);
+    EXPECT_EQ(column<std::int64_t>(table, "rank")[0], 2);
+    EXPECT_EQ(column<std::int64_t>(table, "open")[0], 1);
+    EXPECT_EQ(column<std::string>(table, "neighbours")[0], "3 5");
+    pocket.mouths.clear();
+    EXPECT_TRUE(std::isnan(column<double>(pockets.table(atoms), "mouth_radius_A")[0]));
+}
+
+// Where no pocket is at the atoms that were asked for the table has a row all the same: closed.
+TEST(Tables, APocketThatIsAskedForHasARow)
+{
+    const BallSet atoms = residuesNamed({"LYS"});
+    for (const bool isChosen : {false, true}) {
+        Report::Pockets none;
+        none.isChosen = isChosen;
+        const Table table = none.table(atoms);
+        ASSERT_EQ(column<double>(table, "volume").size(), isChosen ? 1u : 0u);
+        EXPECT_EQ(column<double>(table, "voxel_A").size(), isChosen ? 1u : 0u);
+        if (isChosen) {
+            EXPECT_EQ(column<double>(table, "volume")[0], 0.0);
+        }
+    }
+}
+
+// Hydrogens are of the class of the nearest heavy atom of their residue.
+TEST(Tables, AHydrogenIsOfTheClassOfItsHeavyAtom)
+{
+    BallSet atoms;
+    BallNames& names = atoms.names.emplace();
+    const auto add = [&](int residue, std::uint8_t element, double x) {
+        atoms.balls.push_back({{x, 0.0, 0.0}, 1.5, std::int32_t(atoms.balls.size())});
+        names.atoms.push_back({"X", '\0', element, 1.0f});
+        names.residueOf.push_back(residue);
+    };
+    for (const int number : {1, 2, 3})
+        names.residues.push_back({"A", "A", "LIG", number, ' ', false});
+    add(0, 1, -1.0); // beside the carbon
+    add(0, 6, 0.0);
+    add(0, 7, 1.5);
+    add(0, 1, 2.5);  // beside the nitrogen
+    add(1, 8, 3.0);  // nearer to it, of another residue
+    add(1, 1, 20.0); // far from its oxygen
+    add(2, 1, 0.1);  // of a residue without any other
+    add(2, 0, 0.2);
+    for (const std::uint8_t apolar : {9, 15, 16, 17, 34, 35, 53}) add(0, apolar, 50.0);
+    for (const std::uint8_t polar : {11, 30, 12}) add(0, polar, 60.0);
+    using P = Polarity;
+    std::vector<P> expected = {P::Apolar, P::Apolar, P::Polar, P::Polar,
+                               P::Polar,  P::Polar,  P::Polar, P::Unknown};
+    expected.insert(expected.end(), 7, P::Apolar);
+    expected.insert(expected.end(), 3, P::Polar);
+    EXPECT_EQ(polarityOf(atoms), expected);
 }
 
 TEST(Tables, OfAtomsAndResiduesAddUpToTheArea)

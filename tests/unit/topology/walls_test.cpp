@@ -96,6 +96,12 @@ TEST(ThinPlaces, LieAmidTwoOrThreeSheets)
     std::vector<Vec3d> thick = wall;
     for (Vec3d& y : thick) y *= 1.6;
     EXPECT_EQ(count(thick, Vec3d(0.0)), 0u);
+    std::vector<ThinPlace> out; // each sheet has the mean of its feet
+    findThinPlaces({wall[0], wall[2], wall[1], {0.4, 0.3, depth}}, Vec3d(0.1), depth, out);
+    ASSERT_EQ(out.size(), 1u);
+    ASSERT_EQ(out[0].sheets.size(), 2u);
+    EXPECT_LT((out[0].sheets[0] - Vec3d(0.2, 0.1, depth)).length(), 1e-12);
+    EXPECT_EQ(out[0].sheets[1], wall[2]);
 }
 
 // A third sheet that bounds no neck takes nothing from a wall of the other two.

@@ -13,11 +13,11 @@ namespace molsurf
 namespace
 {
 
+/// By its own name: force fields call neutral ones ASH, GLH and LYN.
 double chargeOf(const std::string& residue)
 {
-    const std::string name = parentResidue(residue);
-    if (name == "LYS" || name == "ARG") return 1.0;
-    return name == "ASP" || name == "GLU" ? -1.0 : 0.0;
+    if (residue == "LYS" || residue == "ARG") return 1.0;
+    return residue == "ASP" || residue == "GLU" ? -1.0 : 0.0;
 }
 
 void append(const std::string& word, std::string& list)
