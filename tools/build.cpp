@@ -102,6 +102,12 @@ RunLimits limitsOf(const CommandLine& call, const BallSet& atoms)
     if (call.shownPockets > few && call.writes(Pixels))
         limits.besides.bytes += std::size_t(
             shareOfBodies * costOfPockets(atoms, call.options, {double(atoms.balls.size())}).bytes);
+    for (const auto& [content, cost] : {std::pair(Density, costOfDensity), {Mask, costOfMask}})
+        if (call.writes(content)) {
+            const Cost map = cost(atoms, call.tomogram);
+            limits.besides.seconds += map.seconds;
+            limits.besides.bytes += std::size_t(map.bytes);
+        }
     if (call.writes(Volume)) limits.besides.seconds += costOfMap(atoms, call.options).seconds;
     if (!call.options.grid) limits.hint = " [hint: fewer atoms by `select`";
     return limits;
@@ -258,7 +264,7 @@ bool dependsOnGaps(const CommandLine& call)
 /// Whether a call shows the mesh, or what is measured on it.
 bool readsMesh(const CommandLine& call)
 {
-    constexpr unsigned ofLevelSet = heldByVdb | heldByNvdb | Volume | Solver;
+    constexpr unsigned ofLevelSet = heldByVdb | heldByNvdb | Volume | Solver | Density;
     const bool inFiles = call.outputs.empty() || call.writes(~ofLevelSet);
     return inFiles || call.verb != Build || !call.frames.empty() || !call.required.empty() ||
            call.center;

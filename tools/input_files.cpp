@@ -48,8 +48,8 @@ void failIfNoFile(const std::string& path)
     std::string hint;
     const std::size_t scheme = path.find("://");
     if (scheme != std::string::npos && path.rfind("http", 0) != 0 && path.rfind("ftp", 0) != 0)
-        hint = " [hint: it is an address; aws s3 cp, gcloud storage cp or the like loads the file "
-               "first]";
+        hint = " [hint: it is an address; aws s3 cp ADDRESS - | vdb_molsurf - reads it, or gcloud "
+               "storage cat or the like in place of aws]";
     else if (scheme != std::string::npos)
         hint = " [hint: it is an address; curl -LO " + path + " loads the file first]";
     else if (isEntry(path))

@@ -7,7 +7,7 @@ case $words[2] in
     help|build|batch|compare|convert|bricks|info) verb=$words[2] ;;
 esac
 case "$verb:$words[CURRENT-1]" in
-    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'off' 'wrl' 'msh2' 'nvdb' 'mrc' 'dx' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'patches.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pdb' 'cif' 'residues.pdb' 'residues.cif' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.wrl' 'pockets.vtk' 'pockets.glb' 'pockets.3mf' 'pore.ply' 'pore.obj' 'pore.stl' 'pore.off' 'pore.wrl' 'pore.vtk' 'pore.glb' 'pore.3mf' 'tunnels.ply' 'tunnels.obj' 'tunnels.stl' 'tunnels.off' 'tunnels.wrl' 'tunnels.vtk' 'tunnels.glb' 'tunnels.3mf'; return ;;
+    "build:--format") compadd -- 'vdb' 'ply' 'obj' 'stl' 'vtk' 'glb' '3mf' 'vert' 'face' 'poly' 'msh' 'off' 'wrl' 'msh2' 'nvdb' 'mrc' 'dx' 'density.mrc' 'mask.mrc' 'dielx.dx' 'diely.dx' 'dielz.dx' 'kappa.dx' 'charges.pqr' 'apbs.in' 'cxc' 'pml' 'html' 'json' 'png' 'legend.svg' 'view' 'atoms.csv' 'residues.csv' 'contacts.csv' 'interfaces.csv' 'pockets.csv' 'patches.csv' 'pore.csv' 'tunnels.csv' 'forces.csv' 'pore.svg' 'pore.png' 'tunnels.pdb' 'tunnels.cif' 'tunnels.cxc' 'tunnels.pml' 'pdb' 'cif' 'residues.pdb' 'residues.cif' 'pockets.ply' 'pockets.obj' 'pockets.stl' 'pockets.off' 'pockets.wrl' 'pockets.vtk' 'pockets.glb' 'pockets.3mf' 'pore.ply' 'pore.obj' 'pore.stl' 'pore.off' 'pore.wrl' 'pore.vtk' 'pore.glb' 'pore.3mf' 'tunnels.ply' 'tunnels.obj' 'tunnels.stl' 'tunnels.off' 'tunnels.wrl' 'tunnels.vtk' 'tunnels.glb' 'tunnels.3mf'; return ;;
     "build:--superpose") compadd -- 'auto'; return ;;
     "build:--surface") compadd -- 'variational' 'ses' 'sas' 'vdw' 'gaussian' 'smooth-sas'; return ;;
     "build:--pieces") compadd -- 'all' 'outer' 'cavities'; return ;;
@@ -179,6 +179,11 @@ if [[ $words[CURRENT] == -* ]]; then
       '--pdie:relative permittivity of the molecule'
       '--sdie:relative permittivity of the solvent'
       '--ion-conc:concentration of a 1\:1 salt [mol/L]'
+      '--pixel-size:edge of a pixel of .density.mrc and .mask.mrc [Å]'
+      '--box-size:pixels on an edge of the box, even; without it the least'
+      '--mask-extend:pixels outside of the surface up to which .mask.mrc is 1'
+      '--mask-edge:pixels over which .mask.mrc falls to 0, by a cosine'
+      '--invert-density:.density.mrc is negative, as matter is in tomograms'
       '--view:a direction toward the eye, X,Y,Z or an axis as z or -z;'
       '--zoom:these atoms fill 80 % of a square frame; where something'
       '--up:what is upright, such as z, the normal of a membrane;'
@@ -291,6 +296,11 @@ if [[ $words[CURRENT] == -* ]]; then
       '--center:the middle of the surface comes to the origin'
       '--print-scale:.stl, .obj, .wrl, .3mf in mm, S of them per Å'
       '--min-thickness:thicken what is thinner than W mm; with --print-scale'
+      '--pixel-size:edge of a pixel of .density.mrc and .mask.mrc [Å]'
+      '--box-size:pixels on an edge of the box, even; without it the least'
+      '--mask-extend:pixels outside of the surface up to which .mask.mrc is 1'
+      '--mask-edge:pixels over which .mask.mrc falls to 0, by a cosine'
+      '--invert-density:.density.mrc is negative, as matter is in tomograms'
       '--view:a direction toward the eye, X,Y,Z or an axis as z or -z;'
       '--zoom:these atoms fill 80 % of a square frame; where something'
       '--up:what is upright, such as z, the normal of a membrane;'

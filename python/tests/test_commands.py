@@ -38,7 +38,7 @@ def test_files_of_every_ending_are_those_of_the_command(crambin, tmp_path):
     apart = {".json", ".vdb", ".mp4", ".webm", ".gif"}
     made = crambin.surface(kind="ses", voxel=1.5, color="chain", atom_areas=True, pockets=True)
     told = [end for end in ms._core.surface_endings()
-            if not re.match(r"\.(pore|tunnels|interfaces)|\.pockets\.(?!csv)", end)]
+            if not re.match(r"\.(pore|tunnels|interfaces|density|mask)|\.pockets\.(?!csv)", end)]
     assert len(told) > 25
     (tmp_path / "a").mkdir(), (tmp_path / "b").mkdir()
     words = [word for end in told if end not in {".mp4", ".webm", ".gif"} for word in ("-o", f"a/x{end}")]
@@ -69,6 +69,25 @@ def test_save_takes_the_options_of_files(crambin, tmp_path):
         made.save(tmp_path / "a.ply", turntable=3)
     with pytest.raises(TypeError, match="unexpected keyword argument 'sise'"):
         made.save(tmp_path / "a.png", sise=3)
+
+
+def test_maps_for_tomograms_are_those_of_the_command(crambin, tmp_path):
+    more = ["--resolution", "6", "--pixel-size", "2.5", "--box-size", "40", "--mask-extend", "1", "--mask-edge", "2", "--invert-density"]
+    subprocess.run([command("vdb_molsurf"), DATA / "1crn.pdb", "--voxel", "1", *more, "-q", "-o", tmp_path / "c.density.mrc", "-o",
+                    tmp_path / "c.mask.mrc"], check=True)
+    made = ms.read(DATA / "1crn.pdb", resolution=6).surface(voxel=1)
+    made.to_tomogram(tmp_path / "p.density.mrc", 2.5, box_size=40, invert_density=True)
+    made.to_tomogram(tmp_path / "p.mask.mrc", 2.5, box_size=40, mask_extend=1, mask_edge=2)
+    for name in ("density", "mask"):
+        assert (tmp_path / f"p.{name}.mrc").read_bytes() == (tmp_path / f"c.{name}.mrc").read_bytes()
+    with pytest.raises(ms.OptionError, match="ends in .density.mrc or .mask.mrc"):
+        made.to_tomogram(tmp_path / "p.mrc", 2.5)
+    with pytest.raises(ms.InputError, match="`box_size`: expected at least"):
+        made.to_tomogram(tmp_path / "q.mask.mrc", 2.5, box_size=4)
+    with pytest.raises(ms.OptionError, match="an even number"):
+        made.to_tomogram(tmp_path / "q.mask.mrc", 2.5, box_size=41)
+    with pytest.raises(ms.OptionError, match="pixel_size"):
+        made.save(tmp_path / "q.mask.mrc")
 
 
 PICTURE = {"view": (0.2, -1, 0.5), "up": (1, 0, 0), "turn": 30, "background": "#102030", "plain_color": "#ffd700", "style": "outline",

@@ -34,7 +34,7 @@ def options_of_build():
 
 def of_files():
     """Options that the methods have which write files."""
-    methods = (ms.Surface.save, ms.Surface.to_vdb, ms.Surface.to_apbs, ms.Surface.picture)
+    methods = (ms.Surface.save, ms.Surface.to_vdb, ms.Surface.to_apbs, ms.Surface.to_tomogram, ms.Surface.picture)
     parameters = {name for method in methods for name in inspect.signature(method).parameters}
     return {name.replace("_", "-").replace("panels", "panel")
             for name in parameters - {"self", "path", "folder", "width", "replace", "scene", "look"}}

@@ -517,6 +517,31 @@ class Surface:
             warnings.warn(f"to_apbs: a surface of kind {self.kind} has another energy than the solvent-excluded one "
                           "[hint: kind=\"ses\", or match=\"ses\"]", stacklevel=2)
 
+    def to_tomogram(self, path, pixel_size, *, box_size=None, mask_extend=0.0, mask_edge=3.0, invert_density=False,
+                    replace=True):
+        """Writes a template (.density.mrc) or a soft mask (.mask.mrc) for RELION, pytom-match-pick and cryoCAT.
+
+        Both have the same pixels: those of a cube whose pixel N/2 is the centre of the atoms, weighted by their atomic
+        numbers. The density is that of ChimeraX's molmap at the resolution of read() or surface(), or three pixels.
+
+        pixel_size: edge of a pixel [Å], 0.1 to 100.
+        box_size: pixels on an edge, even; None: the least that holds density and mask.
+        mask_extend: pixels outside of the surface up to which the mask is 1.
+        mask_edge: pixels over which it falls to 0, by a cosine.
+        invert_density: makes the density negative, as matter is in tomograms.
+
+        Raises OptionError for another ending, InputError if the box does not hold the molecule.
+        """
+        path = os.fspath(path)
+        if not path.endswith((".density.mrc", ".mask.mrc")):
+            raise _core.OptionError("to_tomogram: expected a name that ends in .density.mrc or .mask.mrc")
+        given = {"pixel-size": float(pixel_size), "box-size": box_size}
+        if path.endswith(".density.mrc"):
+            given["invert-density"] = invert_density
+        else:
+            given.update({"mask-extend": float(mask_extend), "mask-edge": float(mask_edge)})
+        self._save(path, replace, given)
+
     def view(self, height=480, panels=None):
         """The page of save("name.html") as what a notebook shows: a surface to turn, with its colours and atoms."""
         return Page(self, int(height), panels)

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Packs the add-on of Blender: molsurf_addon.zip in the present folder, or the file that is named.
+# Packs the add-on of Blender: molsurf_addon.zip in the present folder, or the file that is named. Blender 4.2 and later
+# take it as an extension, earlier ones as an add-on.
 #     scripts/blender/make_addon.sh [FILE.zip]
 set -euo pipefail
 to=$(realpath -m "${1:-molsurf_addon.zip}")
@@ -8,6 +9,7 @@ rm -f "$to"
 python3 - "$to" << 'END'
 import sys, zipfile
 with zipfile.ZipFile(sys.argv[1], "w", zipfile.ZIP_DEFLATED) as file:  # with its folder, as Blender wants it
-    file.write("molsurf_addon/__init__.py")
+    for name in ("__init__.py", "blender_manifest.toml"):
+        file.write(f"molsurf_addon/{name}")
 END
 echo "$to"

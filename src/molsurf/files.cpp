@@ -177,6 +177,7 @@ void checkMade(const ShownSurface& shown, const Output& output)
         {output.holds(holds::Numbered), options.pocketBodies, "a surface with `pocketBodies`"},
         {table == "pore", bool(made.report.pore), "a surface of atoms with a `pore`"},
         {table == "tunnels", bool(made.report.tunnels), "a surface of atoms with `tunnelsFrom`"},
+        {output.holds(holds::Mask), !made.mesh.triangles.empty(), "a surface with a mesh"},
         {output.holds(holds::anyGrids | holds::Volume), bool(made.surface),
          "a surface with a grid of its own"}};
     for (const auto& [asks, has, what] : needs)

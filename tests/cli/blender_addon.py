@@ -1,16 +1,22 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Runs the add-on in Blender or bpy: prints what it made as JSON. Words: folder of the add-on, structures."""
+"""Runs the add-on in Blender or bpy: prints what it made as JSON. Words: folder of the add-on, or the .zip of the extension,
+which is installed; structures."""
 
 import json
+import os
 import sys
 
-words = sys.argv[sys.argv.index("--") + 1:]
-sys.path.insert(0, words[0])
-
 import bpy
-import molsurf_addon
 
-molsurf_addon.register()
+words = sys.argv[sys.argv.index("--") + 1:]
+EXTENSION = "bl_ext.user_default.molsurf_addon" if words[0].endswith(".zip") else None
+if EXTENSION:
+    bpy.ops.extensions.package_install_files(filepath=words[0], repo="user_default", enable_on_install=True)
+    bpy.context.preferences.addons[EXTENSION].preferences.program = os.environ["VDB_MOLSURF"]
+else:
+    sys.path.insert(0, words[0])
+    import molsurf_addon
+    molsurf_addon.register()
 settings = bpy.context.scene.molsurf
 result = {}
 
@@ -58,5 +64,8 @@ for frame in (1, 2, 3, 9):
     result["frames"].append((frames.data.name, triangles(frames.data)))
 options["voxel"].value = "20"
 result["error"] = build(input=words[1])
-molsurf_addon.unregister()
+if EXTENSION:
+    bpy.ops.preferences.addon_disable(module=EXTENSION)
+else:
+    molsurf_addon.unregister()
 print("RESULT " + json.dumps(result))

@@ -103,6 +103,7 @@ NEEDS = {
     "prusa-slicer": (program("prusa-slicer"), "scripts/install_deps.sh prusa-slicer"),
     "pymol": (program("pymol"), "scripts/install_deps.sh pymol"),
     "readelf": (program("readelf"), "scripts/install_deps.sh binutils"),
+    "s3": (program("aws", "moto_server"), "pip install awscli moto[server], and their folder in PATH"),
     "slurm": (program("slurmctld", "munged", "snakemake"), "scripts/install_deps.sh slurm-wlm munge snakemake"),
     "snakemake": (program("snakemake"), "scripts/install_deps.sh snakemake"),
     "strace": (lambda: runs("strace", "-qq", "-o", "/dev/null", "-e", "inject=all:delay_exit=1:when=1", "true"),

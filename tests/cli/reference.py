@@ -97,6 +97,8 @@ CASES = [[f"{name} {more} {EVERY}"] for name, more in [
     ("two.xyzr", "--density 4 --surface ses --voxel 0.4"), ("windows.xyzr", "--surface ses --voxel 0.6 --probe 1.2"),
 ]] + [
     [f"{C} --fields all --color chain --curvature-totals {EVERY} -o a.obj -o a.stl -o a.off -o a.wrl -o a.vtk -o a.dx -o a.mrc"],
+    [f"{C} --surface ses --pixel-size 2.3 --mask-edge 2 --mask-extend 1 -o a.mask.mrc -o a.density.mrc",
+     f"{C} --surface ses --pixel-size 3 --box-size 20 --resolution 12 --center --invert-density -o b.density.mrc"],
     [f"{C} --surface ses -o a.vert -o a.face -o a.poly -o a.msh -o a.msh2 -o a.3mf -o a.usda -o a.cxc -o a.glb"],
     [f"{C} --surface ses --color element --sharp-colors -o a.ply -o a.obj -o a.legend.svg -o a.pml"],
     [f"{C} --surface sas --fields depth --areas atoms,residues,contacts -o a.json -o a.atoms.csv -o a.residues.csv -o a.contacts.csv -o a.cif"],

@@ -3,7 +3,10 @@
 
 import json
 import os
+import pathlib
+import re
 import subprocess
+import tomllib
 import unittest
 import zipfile
 
@@ -20,14 +23,21 @@ class Packed(ToolTest):
     def test_zip_has_the_folder(self):
         subprocess.run([ADDON / "make_addon.sh", self.folder / "a.zip"], check=True, capture_output=True)
         with zipfile.ZipFile(self.folder / "a.zip") as file:
-            self.assertEqual(file.namelist(), ["molsurf_addon/__init__.py"])
+            self.assertEqual(sorted(file.namelist()), ["molsurf_addon/__init__.py", "molsurf_addon/blender_manifest.toml"])
             self.assertIn(b"bl_info", file.read("molsurf_addon/__init__.py"))
+            manifest = tomllib.loads(file.read("molsurf_addon/blender_manifest.toml").decode())
+        self.assertEqual((manifest["schema_version"], manifest["id"], manifest["type"]), ("1.0.0", "molsurf_addon", "add-on"))
+        self.assertRegex((ROOT / "CMakeLists.txt").read_text(), rf"VERSION {re.escape(manifest['version'])}\b")
 
 
 class Addon:
+    def addon(self):
+        """What Blender gets of it: its folder, or a .zip."""
+        return ADDON
+
     def run_in(self, *words):
-        done = subprocess.run([*map(str, words), "--", str(ADDON), str(CRAMBIN), str(DIMER), str(NMR)], cwd=self.folder,
-                              capture_output=True, text=True, timeout=500, env={**os.environ, "VDB_MOLSURF": TOOL})
+        done = subprocess.run([*map(str, words), "--", str(self.addon()), str(CRAMBIN), str(DIMER), str(NMR)], cwd=self.folder,
+                              capture_output=True, text=True, timeout=500, env={**os.environ, "VDB_MOLSURF": TOOL, "BLENDER_USER_RESOURCES": str(self.folder)})
         lines = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
         self.assertEqual(len(lines), 1, done.stdout + done.stderr)
         return json.loads(lines[0][len("RESULT "):])
@@ -70,6 +80,35 @@ class Addon:
 @needs("bpy")
 class InModule(Addon, ToolTest):
     program = [BPY_PYTHON, SCRIPT]
+
+
+@needs("bpy")
+class AsExtension(Addon, ToolTest):
+    """Of Blender 4.2 and later: Blender's own command takes it, and an installed one works."""
+    program = [BPY_PYTHON, SCRIPT]
+
+    def setUp(self):
+        super().setUp()
+        done = subprocess.run([BPY_PYTHON, "-c", "import bpy; print(bpy.app.version >= (4, 2, 0), bpy.utils.resource_path('LOCAL'))"],
+                              capture_output=True, text=True, check=True)
+        modern, path = done.stdout.split()[-2:]
+        if modern != "True":
+            self.skipTest("Blender before 4.2 has no extensions")
+        self.command = pathlib.Path(path) / "scripts" / "addons_core" / "bl_pkg" / "cli" / "blender_ext.py"
+
+    def addon(self):
+        to = self.folder / "a.zip"
+        subprocess.run([ADDON / "make_addon.sh", to], check=True, capture_output=True)
+        return to
+
+    def test_blender_takes_it(self):
+        source = ADDON / "molsurf_addon"
+        built = self.folder / "built.zip"
+        subprocess.run([BPY_PYTHON, self.command, "build", "--source-dir", source, "--output-filepath", built], check=True,
+                       capture_output=True)
+        for path in (source, built, self.addon()):
+            done = subprocess.run([BPY_PYTHON, self.command, "validate", path], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
 @needs("blender")

@@ -207,6 +207,43 @@ class Formats(ToolTest):
                 self.assertGreater(near, 1000)
         self.check(2, "ball.xyzr", *FAST, "--by-symmetry", "--assembly", "1", "-o", "b.mrc", says="b.mrc")
 
+    def test_templates_for_tomograms(self):
+        """A density and a mask have the same pixels, about the centre that programs turn maps about."""
+        self.write("ball.xyz", "2\ntwo atoms\nC 1.3 -2.1 0.7\nO 2.5 -2.1 0.7\n")
+        build = ["ball.xyz", "--voxel", "0.25", "--surface", "vdw", "--pixel-size", "0.7"]
+        self.check(0, *build, "--box-size", "32", "-o", "a.density.mrc", "-o", "a.mask.mrc")
+        origin, steps, counts, density = self.volume("a.density.mrc")
+        self.assertEqual(list(counts), [32, 32, 32])
+        for step in steps:
+            self.assertAlmostEqual(step, 0.7, delta=1e-6)
+        self.assertEqual(self.volume("a.mask.mrc")[:3], (origin, steps, counts))
+        middle = [(6 * 1.3 + 8 * 2.5) / 14, -2.1, 0.7]
+        for place, x in zip(origin, middle):
+            self.assertAlmostEqual(place + 16 * 0.7, x, delta=1e-5)
+        self.assertAlmostEqual(sum(density.values()) * 0.7 ** 3, 14.0, delta=0.05)
+        mask = self.volume("a.mask.mrc")[3]
+        for place, value in mask.items():
+            x = [o + 0.7 * n for o, n in zip(origin, place)]
+            away = min(math.dist(x, (1.3, -2.1, 0.7)) - 1.7, math.dist(x, (2.5, -2.1, 0.7)) - 1.52) / 0.7
+            wanted = 1 if away < 0 else 0 if away > 3 else 0.5 + 0.5 * math.cos(math.pi * away / 3)
+            if away > 0:  # Inside of the balls it is no distance from their surface.
+                self.assertAlmostEqual(value, wanted, delta=0.15)
+            else:
+                self.assertGreater(value, 0.95)
+        self.check(0, *build, "--box-size", "32", "--center", "--invert-density", "-o", "b.density.mrc")
+        moved = self.volume("b.density.mrc")
+        self.assertLess(min(moved[3].values()), -1e-3)
+        self.assertLess(max(moved[3].values()), 1e-9)
+        self.assertLess(max(abs(x) for x in (moved[0][1] + 16 * 0.7, moved[0][2] + 16 * 0.7)), 0.01)
+        with open(self.folder / "a.density.mrc", "rb") as file:
+            self.assertEqual(struct.unpack("<3i", file.read(28)[16:]), tuple(round(x / 0.7) for x in origin))
+        self.check(2, "ball.xyz", *FAST, "-o", "c.density.mrc", says=["expected --pixel-size too"])
+        self.check(2, *build, "--box-size", "31", "-o", "c.mask.mrc", says=["--box-size: expected an even number from 2 to 1290, got '31'"])
+        self.check(1, *build, "--box-size", "8", "-o", "c.mask.mrc", says=["--box-size: expected at least 10 pixels", "got 8", "hint: 16"])
+        self.check(2, *build, "--split", "group", "-o", "c.mask.mrc", says=["c.mask.mrc", "--split"])
+        self.check(0, "ball.xyz", *FAST, "--pixel-size", "2", "-o", "c.mrc", says=["--pixel-size is for .density.mrc and .mask.mrc"])
+        self.check(2, "ball.xyz", *FAST, "--for", "relion", "-o", "c.mrc", says=["NAME.density.mrc and NAME.mask.mrc with --pixel-size"])
+
     def test_maps_become_volumes(self):
         """The level set of a map of the distance is the surface that the map is of; the fog is where the map is."""
         self.check(0, CRAMBIN, "--surface", "ses", "-o", "a.mrc", "-o", "a.dx", "-o", "a.ply")

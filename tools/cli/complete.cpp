@@ -342,7 +342,7 @@ void completeAreas(CommandLine& call)
     }
     call.options.pockets |= call.showsPockets() || call.writes(Shares);
     call.options.grid = !asksForNumbers(call);
-    call.labels.names = !tables.empty() || call.writes(ColorChoices);
+    call.labels.names = !tables.empty() || call.writes(ColorChoices | Density | Mask);
     SurfaceOptions& options = call.options;
     options.interfaces |= tables.count("interfaces") > 0;
     if (tables.empty()) return;

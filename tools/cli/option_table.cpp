@@ -450,6 +450,18 @@ OptionGroup solverOptions()
               "the same with a smooth boundary, in 0.15 mol/L of salt"}}};
 }
 
+OptionGroup tomogramOptions()
+{
+    constexpr unsigned both = Build | Batch;
+    return {"Tomograms",
+            {setting("pixel-size", both), setting("box-size", both), setting("mask-extend", both),
+             setting("mask-edge", both), setting("invert-density", both)},
+            {{"vdb_molsurf 1crn.pdb --resolution 8 --pixel-size 2.5 -o 1crn.density.mrc",
+              "a template for RELION, pytom-match-pick, cryoCAT"},
+             {"vdb_molsurf 1crn.pdb --pixel-size 2.5 --mask-edge 4 -o 1crn.mask.mrc",
+              "a mask around the surface with a soft edge"}}};
+}
+
 constexpr std::size_t fewPockets = 8; // that can be told apart
 
 /// How many pockets "pockets", "pockets=N" or "pockets=all" shows; 0: the text is none of these.
@@ -688,10 +700,11 @@ OptionGroup runOptions()
 const std::vector<OptionGroup>& optionTable()
 {
     static const std::vector<OptionGroup> all = {
-        outputOptions(),     atomOptions(),    frameOptions(), surfaceOptions(),
-        resolutionOptions(), groupOptions(),   colorOptions(), areaOptions(),
-        pocketOptions(),     poreOptions(),    sceneOptions(), printOptions(),
-        solverOptions(),     pictureOptions(), runOptions(),   comparisonOptions()};
+        outputOptions(),     atomOptions(),     frameOptions(),   surfaceOptions(),
+        resolutionOptions(), groupOptions(),    colorOptions(),   areaOptions(),
+        pocketOptions(),     poreOptions(),     sceneOptions(),   printOptions(),
+        solverOptions(),     tomogramOptions(), pictureOptions(), runOptions(),
+        comparisonOptions()};
     return all;
 }
 

@@ -269,6 +269,25 @@ std::vector<Pair> superposePairs()
              ": the map stays where it is [hint: another --color]"}};
 }
 
+/// Rows of files that hold one surface in a box.
+std::vector<Pair> boxPairs()
+{
+    const std::vector<Thing> notOfPixels = {"split", "surface-of", "instances", "by-symmetry"};
+    return {{{Solver},
+             Excludes,
+             {"frames", "trajectory", "split", "surface-of", "instances", "by-symmetry", "assembly",
+              "coarse", "memory", "center"},
+             ": charges are of the atoms of the file"},
+            {{Density}, Needs, {"pixel-size"}, " [hint: --pixel-size 4, in Å]"},
+            {{Mask}, Needs, {"pixel-size"}, " [hint: --pixel-size 4, in Å]"},
+            {{Density}, Excludes, notOfPixels, ": it holds one surface"},
+            {{Mask}, Excludes, notOfPixels, ": it holds one surface"},
+            {{Volume},
+             Excludes,
+             {"split", "surface-of", "instances"},
+             ": it holds one surface [hint: -o FILE.vdb holds all]"}};
+}
+
 /// Rows of frames, files and the run.
 std::vector<Pair> runPairs()
 {
@@ -314,15 +333,6 @@ std::vector<Pair> runPairs()
          {"split", "surface-of"},
          ": a film has one mesh [hint: -o FILE.glb is a file for each frame]",
          [](const CommandLine& call) { return call.frames.empty(); }},
-        {{Solver},
-         Excludes,
-         {"frames", "trajectory", "split", "surface-of", "instances", "by-symmetry", "assembly",
-          "coarse", "memory", "center"},
-         ": charges are of the atoms of the file"},
-        {{Volume},
-         Excludes,
-         {"split", "surface-of", "instances"},
-         ": it holds one surface [hint: -o FILE.vdb holds all]"},
         {"skip-existing", Excludes, {"force", "frames", "trajectory", "dry-run", "output=-"}},
         {"skip-existing",
          Needs,
@@ -400,7 +410,7 @@ const std::vector<Pair>& pairTable()
 {
     static const std::vector<Pair> all = [] {
         std::vector<Pair> rows;
-        for (auto* more : {runPairs, superposePairs, assemblyPairs, areaPairs, meshPairs,
+        for (auto* more : {runPairs, boxPairs, superposePairs, assemblyPairs, areaPairs, meshPairs,
                            pocketPairs, surfacePairs, valuePairs})
             for (Pair& row : more()) rows.push_back(std::move(row));
         return rows;

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MPL-2.0
 """Add-on of Blender: surfaces of vdb_molsurf as meshes, volumes or copies, with attributes and materials.
 
-View3D > Sidebar > Molecular Surface. scripts/blender/make_addon.sh packs it; Edit > Preferences > Add-ons > Install takes the
-.zip. The add-on calls the program vdb_molsurf, whose path stands in its preferences, and makes its options of the
+View3D > Sidebar > Molecular Surface. scripts/blender/make_addon.sh packs it; Edit > Preferences > Add-ons > Install from
+Disk takes the .zip, as an extension from Blender 4.2 on. The add-on calls the program vdb_molsurf, whose path stands in its preferences, and makes its options of the
 program's own table. A trajectory becomes a mesh a frame, and the object shows that of the scene's frame.
-Tried in Blender 3.4.1 and 5.0.1.
+Tried in Blender 3.4.1, 4.2.23 and 5.0.1.
 """
 
 import json

@@ -226,6 +226,32 @@ void writeVolume(const Writing& w, OutputFile& file)
     write(*w.result.surface, w.request.origin(), file);
 }
 
+/// The pixels where the files of a run lie.
+PixelBox placed(PixelBox box, const Request& request)
+{
+    box.corner -= request.origin();
+    return box;
+}
+
+void writeDensity(const Writing& w, OutputFile& file)
+{
+    const TomogramSettings& settings = w.request.tomogram;
+    const PixelBox box = tomogramBox(w.atoms, settings);
+    writeMrc(placed(box, w.request), tomogramDensity(w.atoms, settings, box, w.progress),
+             settings.invert ? "vdb_molsurf: electrons [1/A^3], negative"
+                             : "vdb_molsurf: electrons [1/A^3]",
+             file);
+}
+
+void writeMask(const Writing& w, OutputFile& file)
+{
+    const TomogramSettings& settings = w.request.tomogram;
+    const PixelBox box = tomogramBox(w.atoms, settings);
+    const PixelBox ofMesh = placed(box, w.request);
+    writeMrc(ofMesh, softMask(w.mesh, settings, ofMesh, w.progress), "vdb_molsurf: soft mask",
+             file);
+}
+
 template<void write(const std::string&, const std::optional<Legend>&, OutputFile&)>
 void writeScript(const Writing& w, OutputFile& file)
 {
@@ -448,7 +474,9 @@ const std::vector<Format>& formatTable()
                 ofMesh("msh2", meshed),
                 {"nvdb", meshed, heldByNvdb, "level set and fields for GPUs", "", writeBareGrids},
                 {"mrc", meshed, Volume, "level set in a box", "", writeVolume<writeMrc>},
-                {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>}},
+                {"dx", meshed, Volume, "level set in a box", "", writeVolume<writeDx>},
+                {"density.mrc", Build | Batch, Density, "", "", writeDensity},
+                {"mask.mrc", Build | Batch, Mask, "", "", writeMask}},
                {{"cxc", meshed, Script | Colors | Copies, "scripts for .glb and .ply", "",
                  writeScript<writeChimeraXScript>, "glb"},
                 {"pml", meshed, Script | Colors, "scripts for .glb and .ply", "",

@@ -36,11 +36,17 @@ FileSetting programSetting()
         to.forApbs = lowered(values.back()) == "apbs";
         if (to.forApbs) return;
         const auto scene = parseScene(values.back());
+        constexpr const char* tomography[] = {"relion", "pytom", "pytom-match-pick", "cryocat"};
+        const bool isTomography =
+            std::count(std::begin(tomography), std::end(tomography), lowered(values.back())) > 0;
         if (!scene)
             wrongValue("for",
                        "apbs, blender, blender4, houdini, usd, unreal or arnold, all but "
                        "apbs perhaps with =mn-0.01, =mn-0.1, =nm or =UNITS_PER_Å",
-                       values.back(), didYouMean(values.back(), programNames()));
+                       values.back(),
+                       isTomography ? " [hint: -o NAME.density.mrc and NAME.mask.mrc with "
+                                      "`pixelSize` are what it reads]"
+                                    : didYouMean(values.back(), programNames()));
         to.scene.host = scene->host;
         to.scene.scale = scene->scale;
         to.scene.form.oneBox |= scene->form.oneBox;
@@ -122,6 +128,38 @@ std::vector<FileSetting> solverSettings()
                                 {0.0, 10.0, "0 to 10 mol/L"}, MOLSURF_OF(dielectric.salt))};
 }
 
+/// The rows of densities and masks.
+std::vector<FileSetting> tomogramSettings()
+{
+    constexpr unsigned both = holds::Density | holds::Mask;
+    auto box =
+        countRow<FileSettings>({"box-size", "N",
+                                "pixels on an edge of the box, even; without it the least"},
+                               2, 1290, MOLSURF_OF(tomogram.box));
+    box.set = [set = box.set](FileSettings& to, const Values& values) {
+        set(to, values);
+        if (to.tomogram.box % 2 != 0)
+            wrongValue("box-size", "an even number from 2 to 1290", values.back());
+    };
+    return {
+        shownIn(both, numberRow<FileSettings>(
+                          {"pixel-size", "A", "edge of a pixel of .density.mrc and .mask.mrc [Å]"},
+                          {0.1, 100.0, "0.1 to 100 Å"}, MOLSURF_OF(tomogram.pixel))),
+        shownIn(both, box),
+        shownIn(holds::Mask, numberRow<FileSettings>(
+                                 {"mask-extend", "W",
+                                  "pixels outside of the surface up to which .mask.mrc is 1", "0"},
+                                 {0.0, 100.0, "0 to 100 pixels"}, MOLSURF_OF(tomogram.maskExtend))),
+        shownIn(holds::Mask,
+                numberRow<FileSettings>(
+                    {"mask-edge", "W", "pixels over which .mask.mrc falls to 0, by a cosine", "3"},
+                    {0.0, 100.0, "0 to 100 pixels"}, MOLSURF_OF(tomogram.maskEdge))),
+        shownIn(holds::Density,
+                switchRow<FileSettings>("invert-density",
+                                        ".density.mrc is negative, as matter is in tomograms",
+                                        MOLSURF_OF(tomogram.invert)))};
+}
+
 /// The rows of meshes.
 std::vector<FileSetting> meshFileSettings()
 {
@@ -173,6 +211,7 @@ const std::vector<FileSetting>& fileSettings()
         for (const FileSetting& row : sceneSettings())
             rows.push_back(row.shownIn ? row : shownIn(holds::anyGrids, row));
         for (const FileSetting& row : seriesSettings()) rows.push_back(row);
+        for (const FileSetting& row : tomogramSettings()) rows.push_back(row);
         for (const FileSetting& row : solverSettings()) rows.push_back(shownIn(holds::Solver, row));
         return rows;
     }();

@@ -11,6 +11,7 @@
 #include "molsurf/show/io/write_apbs.h"
 #include "molsurf/show/io/write_mesh.h"
 #include "molsurf/surface/option_row.h"
+#include "molsurf/surface/tomogram_map.h"
 
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ struct FileSettings {
     int turntable = 0;                             ///< number of pictures round the upright; 0: one
     bool weld = false;                             ///< units of a whole share their vertices
     ContactLevel contacts = ContactLevel::Residue; ///< of tables of contacts
+    TomogramSettings tomogram;                     ///< of densities and masks
 
     /// The unit of the formats that are printed from.
     LengthUnit printUnit() const

@@ -580,6 +580,27 @@ TEST(ExcludedMeasure, OrderPlaceAndScaleDoNotMatter)
     EXPECT_EQ(rotated.all.volume, here.all.volume);
 }
 
+// Probes in the cavity touch four balls; two triangles of a probe share a crease 10^-13 Å wide.
+TEST(ExcludedMeasure, OfAHollowLatticeIsThatOfAMovedOne)
+{
+    std::vector<Ball> exact, moved;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> aside(-1e-5, 1e-5);
+    const auto isInside = [](int k) { return k == 1 || k == 2; };
+    for (int k = 0; k < 64; ++k) {
+        const int x = k & 3, y = k >> 2 & 3, z = k >> 4;
+        if (isInside(x) && isInside(y) && isInside(z)) continue;
+        exact.push_back({3.2 * Vec3d(x, y, z), 1.7, 0});
+        moved.push_back(exact.back());
+        moved.back().center += Vec3d(aside(random), aside(random), aside(random));
+    }
+    const Excluded there(exact), near(moved);
+    EXPECT_NEAR(there.all.area, near.all.area, 1e-3);
+    EXPECT_NEAR(there.all.volume, near.all.volume, 1e-3);
+    EXPECT_EQ(there.all.euler, near.all.euler);
+    EXPECT_EQ(there.all.cavities, 1);
+}
+
 TEST(ExcludedMeasure, ThreadsDoNotMatter)
 {
     const std::vector<Ball> balls = test::randomBalls(300, 20.0, Vec3d(0.0), 4);

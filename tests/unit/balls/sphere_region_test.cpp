@@ -94,6 +94,30 @@ TEST(SphereRegion, HolesBelongToTheFaceAboutThem)
     }
 }
 
+// Where two rims of nearly one plane cross is ill-conditioned; what they bound is not.
+TEST(SphereRegion, PlanesThatAreNearlyOneAreOne)
+{
+    const Vec3d whole = regionOf(octant(), unit(1, 1, 1)).faces[0].normal;
+    for (double apart = 1e-3; apart > 1e-12; apart /= 3.0) { // nearer ones are left out
+        for (const double at : {0.3, 0.9}) { // where along the side they cross [rad]
+            std::vector<SphereCap> caps = octant();
+            const Vec3d across(0.0, std::sin(at), -std::cos(at));
+            caps.push_back({unit(-1.0, apart * across.y(), apart * across.z()), 0.0});
+            for (const bool first : {false, true}) {
+                if (first) std::reverse(caps.begin(), caps.end());
+                const SphereRegion region = regionOf(caps, unit(1, 1, 1));
+                EXPECT_NEAR(region.area, 0.5 * M_PI, apart + 1e-14) << apart;
+                ASSERT_EQ(region.faces.size(), 1u);
+                EXPECT_LT((region.faces[0].normal - whole).length(), apart + 1e-14) << apart;
+            }
+        }
+        // A lune, between planes that face each other.
+        const Vec3d one = unit(-1, 0.2, 0.1), other = unit(1, -0.2 + apart, -0.1);
+        const double lune = regionOf({{one, 0.0}, {other, 0.0}}, unit(0.3, 1.0, 0.99)).area;
+        EXPECT_NEAR(lune, 2.0 * std::asin(one.cross(other).length()), 1e-3 * apart);
+    }
+}
+
 TEST(SphereRegion, NothingIsLeft)
 {
     std::vector<SphereCap> caps = octant();

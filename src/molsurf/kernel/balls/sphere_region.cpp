@@ -31,11 +31,37 @@ struct Rim {
         e1.normalize();
         e2 = axis.cross(e1);
     }
+    double angleOf(const Vec3d& u) const { return std::atan2(u.dot(e2), u.dot(e1)); }
     Vec3d at(double angle) const
     {
         return cosine * axis + sine * (std::cos(angle) * e1 + std::sin(angle) * e2);
     }
 };
+
+/// The two points in which the rims of caps of nearly one plane meet, on either side of the way
+/// from the first axis to the second one. Where they lie along a rim is ill-conditioned, and what
+/// one rim gains the other one has to lose: both take these very points.
+/// @param[out] points  to the right and to the left, seen from outside along that way
+/// @return whether they meet
+bool findCrossings(const SphereCap& first, const SphereCap& second, Vec3d points[2])
+{
+    // A plane is the same with its axis and cosine turned over.
+    const double sign = first.axis.dot(second.axis) < 0.0 ? -1.0 : 1.0;
+    const Vec3d way = sign * second.axis - first.axis;
+    Vec3d tangent = way - way.dot(first.axis) * first.axis;
+    const double sine = tangent.length();
+    tangent /= sine;
+    // u = cosine axis + along tangent + across (axis x tangent) with u.(second axis) = its cosine.
+    const double along =
+        (sign * second.cosine - first.cosine + 0.5 * first.cosine * way.lengthSqr()) / sine;
+    const double across2 = (1.0 - first.cosine) * (1.0 + first.cosine) - along * along;
+    if (!(across2 > 0.0)) return false;
+    const Vec3d middle = first.cosine * first.axis + along * tangent;
+    const Vec3d across = std::sqrt(across2) * first.axis.cross(tangent);
+    points[0] = middle - across;
+    points[1] = middle + across;
+    return true;
+}
 
 /// Adds the free parts of the rim of a cap, by a sweep over the angles that other caps cover, by
 /// their begins in [0, 2 pi). It begins 2 pi before the last of their ends.
@@ -49,12 +75,21 @@ void addRimArcs(const std::vector<SphereCap>& caps, int own, RegionScratch& scra
         if (k == own) continue;
         const SphereCap& cap = caps[std::size_t(k)];
         const double x = cap.axis.dot(rim.e1), y = cap.axis.dot(rim.e2);
-        const double cosine = (cap.cosine - rim.cosine * cap.axis.dot(rim.axis)) /
-                              (rim.sine * std::sqrt(x * x + y * y));
+        const double facing = cap.axis.dot(rim.axis), sine2 = x * x + y * y;
+        const double cosine = (cap.cosine - rim.cosine * facing) / (rim.sine * std::sqrt(sine2));
         if (cosine >= 1.0) continue;
         if (!(cosine > -1.0)) return; // covered, or the rim of a complement
-        const double half = std::acos(cosine);
-        double begin = std::atan2(y, x) - half;
+        double half = std::acos(cosine), begin = std::atan2(y, x) - half;
+        constexpr double nearlyOne = 1e-4; // angle between planes
+        const SphereCap &first = caps[std::size_t(std::min(own, k))],
+                        &second = caps[std::size_t(std::max(own, k))];
+        Vec3d points[2];
+        if (sine2 < nearlyOne * nearlyOne && findCrossings(first, second, points)) {
+            const bool turned = (own < k) == (facing < 0.0);
+            begin = rim.angleOf(points[turned ? 1 : 0]);
+            const double end = rim.angleOf(points[turned ? 0 : 1]);
+            half = 0.5 * (end < begin ? end - begin + 2.0 * M_PI : end - begin);
+        }
         if (begin < 0.0) begin += 2.0 * M_PI;
         covers.push_back({begin, begin + 2.0 * half, k});
     }

@@ -528,16 +528,19 @@ public:
         return true;
     }
 
-    void cutInto(std::size_t parts, const CoordBBox& box, std::vector<PlannedBrick>& out) const
+    /// Cuts a box into parts, up to the first one that takes more than a memory [byte].
+    /// @return whether none does
+    bool cutInto(std::size_t parts, const CoordBBox& box, std::size_t memory,
+                 std::vector<PlannedBrick>& out) const
     {
         CoordBBox first, second;
         const std::size_t half = parts / 2;
         if (parts < 2 || !cut(box, double(half) / double(parts), first, second)) {
-            keep(estimate(box), out);
-            return;
+            const PlannedBrick brick = estimate(box);
+            keep(brick, out);
+            return brick.voxels == 0 || memoryFor(brick) <= memory;
         }
-        cutInto(half, first, out);
-        cutInto(parts - half, second, out);
+        return cutInto(half, first, memory, out) && cutInto(parts - half, second, memory, out);
     }
 
     /// As few bricks as fit, since they overlap; none if those of one size do not.
@@ -547,10 +550,7 @@ public:
         const std::size_t least = memoryFor(estimate(box)) / memory + 1;
         for (std::size_t parts = least; parts <= 2 * least + 1; ++parts) {
             out.clear();
-            cutInto(parts, box, out);
-            if (std::all_of(out.begin(), out.end(),
-                            [&](const PlannedBrick& b) { return memoryFor(b) <= memory; }))
-                return out;
+            if (cutInto(parts, box, memory, out)) return out;
         }
         return {};
     }
@@ -699,7 +699,8 @@ BrickPlan makePlan(const BallSet& atoms, const SurfaceOptions& options, const In
         const double merge = processBytes + bytesToMerge * voxels;
         if (merge > double(limits.memory)) Planner::tooLittle("the merge", merge, limits.memory);
     } else {
-        planner.cutInto(std::max<std::size_t>(limits.bricks, 1), box, plan.bricks);
+        constexpr auto any = std::numeric_limits<std::size_t>::max();
+        planner.cutInto(std::max<std::size_t>(limits.bricks, 1), box, any, plan.bricks);
     }
     plan.anchor = Coord::floor(0.5 * leafDim * (box.min() + box.max()).asVec3d());
     return plan;

@@ -34,7 +34,9 @@ enum Content : unsigned {
     Shares = 1 << 22,           ///< shares of frames, on voxels
     Numbered = 1 << 24,         ///< a file of each pocket
     Moving = 1 << 23,           ///< the pictures of a turntable or of frames in one film
-    BareGrids = 1 << 25         ///< the level set and its fields without metadata of the run
+    BareGrids = 1 << 25,        ///< the level set and its fields without metadata of the run
+    Density = 1 << 26,          ///< a density on pixels of a tomogram
+    Mask = 1 << 27              ///< a soft mask on such pixels
 };
 
 /// The contents of files that are no meshes, by the ending of their names.

@@ -39,6 +39,36 @@ openvdb::FloatGrid::Ptr gridOf(const ScalarMap& map, float factor, float backgro
     return grid;
 }
 
+/// The values of a map at the points of a lattice with one spacing for all axes.
+ScalarMap onCubes(const ScalarMap& map, double spacing)
+{
+    ScalarMap out;
+    out.origin = map.origin;
+    out.spacing = openvdb::Vec3d(spacing);
+    double points = 1.0;
+    for (int a = 0; a < 3; ++a) {
+        const double extent = double(map.counts[a] - 1) * map.spacing[a];
+        points *= extent / spacing + 1.0;
+        out.counts[a] = std::size_t(extent / spacing * (1.0 + 1e-9)) + 1;
+    }
+    constexpr double most = 2147483647.0; // as of maps that are read
+    if (points > most)
+        throw Error(ErrorKind::Usage, "`iso`: on cubes of " + shortest(spacing) +
+                                          " Å the map has " + formatted("%.3g", points) +
+                                          " points, expected at most 2^31");
+    out.values.reserve(out.counts[0] * out.counts[1] * out.counts[2]);
+    openvdb::Vec3d last;
+    constexpr double rounding = 1e-9; // lest the last point lies outside
+    for (int a = 0; a < 3; ++a) last[a] = (double(map.counts[a] - 1) - rounding) * map.spacing[a];
+    for (std::size_t x = 0; x < out.counts[0]; ++x)
+        for (std::size_t y = 0; y < out.counts[1]; ++y)
+            for (std::size_t z = 0; z < out.counts[2]; ++z) {
+                const auto away = spacing * openvdb::Vec3d(double(x), double(y), double(z));
+                out.values.push_back(map.at(map.origin + openvdb::math::minComponent(away, last)));
+            }
+    return out;
+}
+
 } // namespace
 
 openvdb::FloatGrid::Ptr fogOf(const ScalarMap& map)
@@ -51,11 +81,9 @@ openvdb::FloatGrid::Ptr fogOf(const ScalarMap& map)
 
 openvdb::FloatGrid::Ptr levelSetOf(const ScalarMap& map, double iso)
 {
-    const double voxel = map.spacing[0];
+    const double voxel = map.spacing[openvdb::math::MinIndex(map.spacing)];
     if ((map.spacing - openvdb::Vec3d(voxel)).length() > 1e-4 * voxel)
-        throw Error(ErrorKind::Usage,
-                    "`iso`: expected a map with cubic voxels, got " + shortest(map.spacing[0]) +
-                        " x " + shortest(map.spacing[1]) + " x " + shortest(map.spacing[2]) + " Å");
+        return levelSetOf(onCubes(map, voxel), iso);
     const auto [least, most] = std::minmax_element(map.values.begin(), map.values.end());
     if (!(double(*least) < iso && iso < double(*most)))
         throw Error(ErrorKind::Usage, "`iso`: expected a value between those of the map, " +

@@ -38,6 +38,9 @@ std::string hint(const std::string& path, int reason)
         const fs::path folder = fs::path(path).parent_path();
         std::error_code ignored;
         const bool there = folder.empty() || fs::is_directory(folder, ignored);
+        if (path.find("://") != std::string::npos)
+            return " [hint: it is an address; aws s3 cp - ADDRESS or the like takes standard "
+                   "output]";
         return there ? "" : " [hint: make the folder first]";
     }
     case ENAMETOOLONG:

@@ -5,6 +5,7 @@
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/show/io/dx_array.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -100,13 +101,13 @@ struct ValueStatistics {
     }
 };
 
-} // namespace
-
-void writeMrc(const openvdb::FloatGrid& surface, const Vec3d& origin, OutputFile& file)
+/// Writes a map.
+/// @param[in] each  calls a function with each value, x fastest
+template<typename Each>
+void writeMap(const DenseBox& box, const char* label, const Each& each, OutputFile& file)
 {
-    const DenseBox box = denseBoxOf(surface, origin, file);
     ValueStatistics values;
-    forEachValue(surface, box, 2, 0, [&](float value) { values.add(value); });
+    each([&](float value) { values.add(value); });
     const double count = double(box.count()), mean = values.sum / count;
     MrcHeader header; // words are counted from 1, as the format's description does
     for (int axis = 0; axis < 3; ++axis) {
@@ -130,14 +131,30 @@ void writeMrc(const openvdb::FloatGrid& surface, const Vec3d& origin, OutputFile
     header.put(54, std::int32_t(0x4444)); // little-endian, as this machine is
     header.put(55, std::sqrt(std::max(0.0, values.squares / count - mean * mean)));
     header.put(56, labels);
-    header.put(57, "vdb_molsurf: signed distance from the surface [A], negative inside");
+    header.put(57, label);
     file.write(header.bytes(), header.size());
     Buffer buffer(file);
-    forEachValue(surface, box, 2, 0, [&](float value) {
-        std::memcpy(buffer.take(sizeof value), &value, sizeof value);
-    });
+    each([&](float value) { std::memcpy(buffer.take(sizeof value), &value, sizeof value); });
     buffer.flush();
     file.finish();
+}
+
+} // namespace
+
+void writeMrc(const openvdb::FloatGrid& surface, const Vec3d& origin, OutputFile& file)
+{
+    const DenseBox box = denseBoxOf(surface, origin, file);
+    writeMap(
+        box, "vdb_molsurf: signed distance from the surface [A], negative inside",
+        [&](const auto& each) { forEachValue(surface, box, 2, 0, each); }, file);
+}
+
+void writeMrc(const PixelBox& box, const std::vector<float>& values, const char* label,
+              OutputFile& file)
+{
+    writeMap(
+        {Coord(0), Coord(box.count), box.corner, box.pixel}, label,
+        [&](const auto& each) { std::for_each(values.begin(), values.end(), each); }, file);
 }
 
 void writeDx(const openvdb::FloatGrid& surface, const Vec3d& origin, OutputFile& file)
