@@ -58,7 +58,7 @@ constexpr double secondsPerDepth = 2e-5, bytesPerDepth = 900.0;
 // measured: build --interfaces of 4AT1, 1AOI, both kinds in closed form, and 400 to 20,000
 // chains of one bead
 constexpr double secondsPerAlone = 1.5e-5;                          // a ball
-constexpr double secondsPerFacing = 1.2e-4, bytesPerFacing = 1.4e4; // a ball of a pair of groups
+constexpr double secondsPerFacing = 1.5e-4, bytesPerFacing = 1.4e4; // a ball of a pair of groups
 constexpr double secondsPerSphere = 1.2e-5;                         // that is its group
 constexpr double bytesPerPair = 1.35e3;                             // of groups, its rows
 

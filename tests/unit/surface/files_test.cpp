@@ -164,6 +164,8 @@ TEST(Files, HaveEveryEnding)
         const auto write = [&] { writeSurface({shown}, folder / "a" + ending, {}, false); };
         if (isOfAPore)
             EXPECT_HAS(errorOf(ErrorKind::Usage, write), "got one without");
+        else if (ending == ".density.mrc" || ending == ".mask.mrc")
+            EXPECT_HAS(errorOf(ErrorKind::Usage, write), "expected `pixelSize`");
         else if (ending == ".interfaces.csv")
             EXPECT_HAS(errorOf(ErrorKind::Usage, write), "expected a surface with `interfaces`");
         else
