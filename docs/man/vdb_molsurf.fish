@@ -88,7 +88,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "convert"' -l pla
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l sharp-colors -d 'mesh files: triangles are cut where colours meet'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l areas -x -a 'atoms residues contacts interfaces pockets patches pore tunnels forces' -d 'tables for the report, by commas: atoms, residues,'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l contacts -x -a 'atom residue chain' -d 'contact areas between atoms, residues or chains: atom,'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l patches -x -a 'mean-curvature> gaussian-curvature> bfactor> occupancy> charge> hydrophobicity> rainbow> radius> depth> table=FILE> potential=FILE>' -d 'connected pieces of the surface where a value of --color,'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l patches -x -a 'mean-curvature\> gaussian-curvature\> bfactor\> occupancy\> charge\> hydrophobicity\> rainbow\> radius\> depth\> table=FILE\> potential=FILE\>' -d 'connected pieces of the surface where a value of --color,'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l pockets -d 'pockets of the surface, for the report, .pockets.csv, and a'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l pocket-at -r -d 'only the pocket at these atoms of the file, used or not:'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l probe-in -r -d 'radius of the probe that gets into pockets [Å], 0.5 to 10'

@@ -138,6 +138,22 @@ std::string zshCompletion()
            joinWords(known.firsts, " ") + "\n_files\n";
 }
 
+namespace
+{
+
+/// Words of an option as fish takes them from a string: it reads > and < in there itself.
+std::string fishWords(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (const char c : joinWords(words, " ")) {
+        if (c == '<' || c == '>') text += '\\';
+        text += c;
+    }
+    return text;
+}
+
+} // namespace
+
 std::string fishCompletion()
 {
     const VerbWords known = verbWords();
@@ -166,7 +182,7 @@ std::string fishCompletion()
                 "complete -c vdb_molsurf -n '__vdb_molsurf_verb" + verbs + "' -l " + option.name;
             if (option.letter) text += std::string(" -s ") + option.letter;
             if (!option.words.empty())
-                text += " -x -a '" + joinWords(option.words, " ") + "'";
+                text += " -x -a '" + fishWords(option.words) + "'";
             else if (option.value)
                 text += " -r";
             text += " -d '" + described(option, "\\'") + "'\n";
