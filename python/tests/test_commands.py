@@ -38,7 +38,7 @@ def test_files_of_every_ending_are_those_of_the_command(crambin, tmp_path):
     apart = {".json", ".vdb", ".mp4", ".webm", ".gif"}
     made = crambin.surface(kind="ses", voxel=1.5, color="chain", atom_areas=True, pockets=True)
     told = [end for end in ms._core.surface_endings()
-            if not re.match(r"\.(pore|tunnels|interfaces|density|mask)|\.pockets\.(?!csv)", end)]
+            if not re.match(r"\.(pore|tunnels|interfaces|patches|density|mask)|\.pockets\.(?!csv)", end)]
     assert len(told) > 25
     (tmp_path / "a").mkdir(), (tmp_path / "b").mkdir()
     words = [word for end in told if end not in {".mp4", ".webm", ".gif"} for word in ("-o", f"a/x{end}")]
