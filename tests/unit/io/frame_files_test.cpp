@@ -3,6 +3,8 @@
 
 #include "molsurf/show/io/usda_text.h"
 
+#include "support/folder.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -30,6 +32,22 @@ TEST(FrameFiles, AreNamedByStemAndNumber)
     for (const char* none : {"name.vdb", "name.x1.vdb", "name.-1.vdb", "name.1e2.vdb"})
         expectName(none, std::string(none).substr(0, std::string(none).size() - 4).c_str(), {});
     expectName(".0001.vdb", ".0001", {}); // a number and nothing that it counts
+}
+
+// A file that counts the same frame in other digits is another one; its own need not be there yet.
+TEST(FrameFiles, AFrameIsListedOnce)
+{
+    const test::Folder folder;
+    for (const char* name : {"a.1.vdb", "a.0002.vdb", "a.0003.usda", "b.0004.vdb", "a.vdb"})
+        std::ofstream(folder / name) << "no grid";
+    FrameOptions known;
+    const FrameFiles files = framesBeside(folder / "a.0001.vdb", "", known);
+    const std::vector<std::pair<int, std::string>> expected = {{1, "a.0001.vdb"},
+                                                               {2, "a.0002.vdb"}};
+    EXPECT_EQ(files.frames, expected);
+    EXPECT_TRUE(files.leftOut.empty());
+    EXPECT_EQ(framesBeside(folder / "a.0001.vdb", "others", known).leftOut,
+              std::vector<std::string>{"a.0002.vdb"});
 }
 
 void writeStage(const std::filesystem::path& path, const char* options)

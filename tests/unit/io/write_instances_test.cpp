@@ -140,5 +140,39 @@ TEST(WriteGlb, LevelsAreScenes)
     }
 }
 
+// What glTF does not have: a value that is none is 0, a normal without a direction points up; the
+// scale is of the node.
+TEST(WriteGlb, HasNumbersAndUnitNormals)
+{
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.normals = {{0, 0, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 0}};
+    mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    mesh.scalars = {{"depth", {1.5f, std::nanf(""), HUGE_VALF, -2.0f}}};
+    for (const double scale : {1.0, 0.1}) {
+        GlbOptions options;
+        options.scale = scale;
+        const std::string bytes =
+            test::written([&](OutputFile& file) { writeGlb(mesh, options, file); });
+        std::uint32_t size = 0;
+        std::memcpy(&size, bytes.data() + 12, 4);
+        const auto json = nlohmann::json::parse(bytes.substr(20, size));
+        EXPECT_EQ(json["nodes"][0].contains("scale"), scale != 1.0);
+        if (scale != 1.0) EXPECT_EQ(json["nodes"][0]["scale"][2], scale);
+        const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
+        const auto floats = [&](const char* name, std::size_t count) {
+            const auto& accessor = json["accessors"][attributes[name].get<std::size_t>()];
+            const auto& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+            std::vector<float> out(count);
+            std::memcpy(out.data(),
+                        bytes.data() + 28 + size + view["byteOffset"].get<std::size_t>(),
+                        4 * count);
+            return out;
+        };
+        EXPECT_EQ(floats("_DEPTH", 4), (std::vector<float>{1.5f, 0.0f, 0.0f, -2.0f}));
+        EXPECT_EQ(floats("NORMAL", 6), (std::vector<float>{0, 0, 1, 0, 1, 0}));
+    }
+}
+
 } // namespace
 } // namespace molsurf

@@ -2,6 +2,7 @@
 #include "molsurf/show/picture/draw_legend.h"
 
 #include "molsurf/show/picture/font.h"
+#include "molsurf/show/picture/legend_svg.h"
 
 #include <gtest/gtest.h>
 
@@ -170,6 +171,29 @@ TEST(DrawLegend, BarRunsFromHighToLow)
     const int top = row(legend.scale->stops.back()), bottom = row(legend.scale->stops.front());
     EXPECT_GE(top, 0);
     EXPECT_GT(bottom, top + 100);
+}
+
+// Lines of 20 units, with a baseline 16 below their top, and one between two legends.
+TEST(LegendSvg, LegendsLieBelowEachOther)
+{
+    const Legend names{"Chain", "chain", "", "", {}, {{"A", {1, 2, 3}}, {"B & C", {4, 5, 6}}}};
+    Legend scale{"Charge", "charge", "", "e", {}, {{"no value", {7, 8, 9}}}};
+    scale.scale = ColorScale{"own", -1.0, 1.0, {{0, 0, 0}, {100, 0, 0}, {200, 0, 0}}, true};
+    const std::string text = legendSvg({names, scale}, {255, 255, 255});
+    const auto has = [&](const std::string& part) { return text.find(part) != std::string::npos; };
+    EXPECT_TRUE(has("<text x=\"0\" y=\"16\">Chain</text>")) << text;
+    EXPECT_TRUE(has("<text x=\"24\" y=\"36\">A</text>"));
+    EXPECT_TRUE(has("<text x=\"24\" y=\"56\">B &amp; C</text>"));
+    EXPECT_TRUE(has("<text x=\"0\" y=\"96\">Charge</text>")); // a line is left out
+    EXPECT_TRUE(has("<text x=\"0\" y=\"116\">[e]</text>"));
+    EXPECT_TRUE(has("<rect x=\"0\" y=\"130\" width=\"16\" height=\"180\""));
+    EXPECT_TRUE(has("<text x=\"24\" y=\"346\">no value</text>"));
+    // In steps each colour begins and ends at a stop.
+    EXPECT_TRUE(has("<stop offset=\"0.5\" stop-color=\"#000000\"/>"
+                    "<stop offset=\"0.5\" stop-color=\"#640000\"/>"));
+    scale.scale->steps = false;
+    EXPECT_EQ(legendSvg({scale}, {0, 0, 0}).find("<stop offset=\"0.5\" stop-color=\"#000000\"/>"),
+              std::string::npos);
 }
 
 } // namespace

@@ -80,5 +80,45 @@ TEST(View, ShowsThePlacesOfNotes)
     EXPECT_GT(turned.width * turned.pixel, 12.0); // for every turn
 }
 
+// A flat or a high extent has a fifth of its width at least, and four of them at most.
+TEST(View, HasASizeThatPicturesCanHave)
+{
+    for (const bool isHigh : {false, true}) {
+        const auto line = [&](std::size_t) {
+            std::vector<Vec3d> points;
+            for (double x = 0.0; x <= 100.0; x += 1.0)
+                points.push_back(isHigh ? Vec3d(0.0, x, 0.0) : Vec3d(x, 0.0, 0.0));
+            return points;
+        };
+        DrawOptions options;
+        lookFrom({0.0, 0.0, 1.0}, options);
+        keepView(1, line, 1.5, options);
+        ASSERT_TRUE(options.frame);
+        EXPECT_NEAR(options.frame->height / options.frame->width, isHigh ? 4.0 : 0.2, 1e-9);
+    }
+}
+
+// Without a direction the longest axis lies across, and the second one upright, both with their
+// largest component positive, whatever signs the axes come with.
+TEST(View, OfItselfHasPositiveAxes)
+{
+    for (int n = 0; n < 12; ++n) {
+        const openvdb::Mat3d turn =
+            openvdb::math::rotation<openvdb::Mat3d>(Vec3d(0.48, 0.6, 0.64), 0.5 + 0.53 * n);
+        Mesh mesh;
+        for (const Vec3d& x : {Vec3d(-10, 0, 0), Vec3d(10, 0, 0), Vec3d(0, 5, 0), Vec3d(0, -5, 0)})
+            test::addBall(mesh, openvdb::Vec3f(turn * x), 1.0f, {1, 2, 3});
+        const View view = chooseView(mesh, DrawOptions());
+        for (const auto& [axis, own] :
+             {std::pair(view.right, Vec3d(1, 0, 0)), std::pair(view.up, Vec3d(0, 1, 0))}) {
+            EXPECT_NEAR(std::abs(axis.dot(turn * own)), 1.0, 1e-3) << n;
+            double largest = 0.0;
+            for (int k = 0; k < 3; ++k)
+                if (std::abs(axis[k]) > std::abs(largest)) largest = axis[k];
+            EXPECT_GT(largest, 0.0) << n;
+        }
+    }
+}
+
 } // namespace
 } // namespace molsurf

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "molsurf/kernel/core/strings.h"
 #include "molsurf/molecule/structure/read_structure.h"
 #include "molsurf/molecule/structure/readers.h"
+#include "molsurf/molecule/structure/residue_bonds.h"
 #include "unit/structure/temp_file.h"
 
 namespace molsurf::test
@@ -217,6 +219,44 @@ TEST(ReadMol2, SubstructuresMayHaveNoNames)
         EXPECT_EQ(s.charges, (std::vector<float>{-0.25f, -0.25f}));
     }
     EXPECT_EQ(readLigand(carbons({"1 LIG 0.5"})).charges, std::vector<float>{0.5f});
+}
+
+// Orders as files write them: 1, 2, 3, ar or 4; am and others are single.
+TEST(ReadMol2, BondsHaveTheirOrders)
+{
+    std::string text = "@<TRIPOS>MOLECULE\na name\n 7 6 1 0 0\nSMALL\nUSER\n\n@<TRIPOS>ATOM\n";
+    for (int i = 1; i <= 7; ++i)
+        text += std::to_string(i) + " C" + std::to_string(i) + " " + std::to_string(i) +
+                ".4 0 0 C.3 1 LIG1 0\n";
+    text += "@<TRIPOS>BOND\n";
+    const char* const words[] = {"1", "2", "3", "ar", "4", "am"};
+    for (int i = 1; i <= 6; ++i)
+        text += std::to_string(i) + " " + std::to_string(i) + " " + std::to_string(i + 1) + " " +
+                words[i - 1] + "\n";
+    const Structure s = readLigand(text);
+    ASSERT_TRUE(s.bonds);
+    ASSERT_EQ(s.bonds->links.size(), 6u);
+    const BondOrder expected[] = {BondOrder::Single,   BondOrder::Double,   BondOrder::Triple,
+                                  BondOrder::Aromatic, BondOrder::Aromatic, BondOrder::Single};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(s.bonds->links[i].order, expected[i]) << i;
+}
+
+// Bonds are those of all molecules of a file, if they are the same.
+TEST(ReadSdf, ConformersOfOtherBondsHaveNone)
+{
+    const auto molecule = [](const std::string& bonds) {
+        return "name\n  made    01010100003D\n\n  3" +
+               formatted("%3d", int(std::count(bonds.begin(), bonds.end(), '\n'))) +
+               "  0  0  0  0            999 V2000\n"
+               "    0.0000    0.0000    0.0000 C   0  0\n"
+               "    1.4000    0.0000    0.5000 O   0  0\n"
+               "    2.4000    0.0000    0.5000 N   0  0\n" +
+               bonds + "M  END\n$$$$\n";
+    };
+    const std::string both = "  1  2  1  0\n  2  3  1  0\n", one = "  1  2  1  0\n";
+    EXPECT_TRUE(readLigand(molecule(both) + molecule(both)).bonds);
+    EXPECT_FALSE(readLigand(molecule(both) + molecule(one)).bonds);
+    EXPECT_FALSE(readLigand(molecule(one) + molecule(both)).bonds);
 }
 
 TEST(ReadSdf, ADrawingBesideConformersIsRefusedWhereItIsAskedFor)

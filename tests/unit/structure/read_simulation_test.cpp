@@ -64,6 +64,9 @@ TEST(ReadGro, TakesABoxOfWholeNumbers)
     std::string text = groFrame;
     text.replace(text.find("   5.00000"), std::string::npos, "2 2 2\n");
     EXPECT_EQ(readAs("a.gro", text).atoms.size(), 5u);
+    std::string glued = text; // of 40,000 nm
+    glued.replace(glued.find("2 2 2"), 5, "40000.0000040000.0000040000.00000");
+    EXPECT_EQ(readAs("a.gro", glued).atoms.size(), 5u);
     text.replace(text.find("2 2 2"), 5, "2 2");
     EXPECT_HAS(errorAs("a.gro", text), "expected the box after 5 atoms, got \"2 2\"");
 }

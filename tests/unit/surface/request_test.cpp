@@ -139,8 +139,10 @@ TEST(RunOutputs, OfPocketsAreNumbered)
 // A turn of four pictures: each has its number, and a fourth of the turn.
 TEST(RunOutputs, OfATurntableTurn)
 {
-    const std::vector<Output> all = withTurntable({outputOf("a.png"), outputOf("b.ply")}, 4);
-    ASSERT_EQ(all.size(), 5u);
+    const std::vector<Output> all =
+        withTurntable({outputOf("a.png"), outputOf("b.ply"), outputOf("c.gif")}, 4);
+    ASSERT_EQ(all.size(), 6u); // a film has them all itself
+    EXPECT_EQ(all[5].path, "c.gif");
     for (std::size_t n = 0; n < 4; ++n) {
         EXPECT_EQ(all[n].path, "a.000" + std::to_string(n + 1) + ".png");
         EXPECT_EQ(all[n].turn, 90.0 * double(n));
@@ -167,6 +169,7 @@ TEST(DrawnPanels, TurnWithTheFirst)
     ASSERT_EQ(all.size(), 3u);
     EXPECT_EQ(all[0].name, "variational");
     EXPECT_TRUE(all[1].ownEye);
+    EXPECT_LT((all[1].look.toEye.unit() - openvdb::Vec3d(0.0, 0.0, 1.0)).length(), 1e-12);
     EXPECT_EQ(&all[1].mesh, &mesh);
     EXPECT_EQ(all[2].name, "vdw");
     EXPECT_EQ(all[2].look.turn, 30.0);

@@ -123,6 +123,68 @@ TEST(Tables, TheLiningOfATunnelIsWeighedByLength)
     EXPECT_NEAR(liningOfTunnel(atoms, tunnel).hydrophobicity, (-3.9 * 2.5 + 1.8 * 3.5) / 6.0, 1e-6);
 }
 
+// A tunnel's curvature is its length by the straight way, in any direction.
+TEST(Tables, ACurvatureIsALengthByItsChord)
+{
+    Report::Tunnels::Tunnel tunnel;
+    tunnel.stations.resize(2);
+    tunnel.stations[0].place = {1.0, 2.0, 3.0};
+    tunnel.stations[1].distance = 9.0;
+    for (const std::array<double, 3>& to : {std::array{1.0, 2.0, 9.0}, std::array{1.0, 8.0, 3.0},
+                                            std::array{7.0, 2.0, 3.0}, std::array{3.0, 6.0, 7.0}}) {
+        tunnel.stations[1].place = to;
+        EXPECT_NEAR(tunnel.curvature(), 1.5, 1e-12);
+    }
+}
+
+// The mean of a value over a residue's area is that of the balls that have one.
+TEST(Tables, AMeanIsOfWhatHasAValue)
+{
+    BallSet atoms = residuesNamed({"LYS", "ALA"});
+    for (const int residue : {0, 0, 1}) {
+        atoms.balls.push_back({{9.0, 0.0, 0.0}, 1.5, 20});
+        atoms.names->atoms.push_back({"CB", '\0', 6, 1.0f});
+        atoms.names->residueOf.push_back(residue);
+    }
+    atoms.labels.emplace().values.emplace().name = "charge";
+    MolecularSurface result;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    result.ballAreas = {1.0, 2.0, 3.0, 4.0, 0.0};
+    result.ballValues = {0.5, none, -0.5, none, 7.0};
+    const Table table = residueTable(atoms, 1.4, result);
+    EXPECT_NEAR(column<double>(table, "mean_charge")[0], (0.5 - 1.5) / 4.0, 1e-12);
+    EXPECT_NEAR(column<double>(table, "integral_charge_A2")[0], -1.0, 1e-12);
+    EXPECT_TRUE(std::isnan(column<double>(table, "mean_charge")[1])); // without area
+    EXPECT_EQ(column<double>(table, "integral_charge_A2")[1], 0.0);
+    EXPECT_EQ(column<double>(table, "area")[0], 8.0);
+}
+
+// Rows of an interface have the residues of the first group first, and what each loses.
+TEST(Tables, AnInterfaceBeginsWithItsFirstGroup)
+{
+    const BallSet atoms = residuesNamed({"LYS", "ALA", "GLU"});
+    Report report;
+    report.interfaces.resize(1);
+    Report::Interface& one = report.interfaces[0];
+    one.first = "A";
+    one.second = "B";
+    one.buried.resize(2);
+    one.buried[0].ball = 0;
+    one.buried[0].ofFirst = false;
+    one.buried[0].alone = 5.0;
+    one.buried[0].together = 2.0;
+    one.buried[1].ball = 2;
+    one.buried[1].ofFirst = true;
+    one.buried[1].alone = 7.0;
+    one.buried[1].together = 6.0;
+    const Table table = interfaceTable(atoms, report);
+    EXPECT_EQ(column<std::string>(table, "group"), (std::vector<std::string>{"A", "B"}));
+    EXPECT_EQ(column<std::string>(table, "residue"), (std::vector<std::string>{"GLU", "LYS"}));
+    EXPECT_EQ(column<double>(table, "buried_area"), (std::vector<double>{1.0, 3.0}));
+    EXPECT_EQ(column<double>(table, "area"), (std::vector<double>{0.5, 1.5}));
+    EXPECT_EQ(column<double>(table, "buried_apolar_area"), (std::vector<double>{1.0, 3.0}));
+}
+
 // A row has the mouth by which the largest ball gets out, and the area of all.
 TEST(Tables, APocketHasItsWidestMouth)
 {
