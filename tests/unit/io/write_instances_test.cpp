@@ -158,7 +158,9 @@ TEST(WriteGlb, HasNumbersAndUnitNormals)
         std::memcpy(&size, bytes.data() + 12, 4);
         const auto json = nlohmann::json::parse(bytes.substr(20, size));
         EXPECT_EQ(json["nodes"][0].contains("scale"), scale != 1.0);
-        if (scale != 1.0) EXPECT_EQ(json["nodes"][0]["scale"][2], scale);
+        if (scale != 1.0) {
+            EXPECT_EQ(json["nodes"][0]["scale"][2], scale);
+        }
         const auto& attributes = json["meshes"][0]["primitives"][0]["attributes"];
         const auto floats = [&](const char* name, std::size_t count) {
             const auto& accessor = json["accessors"][attributes[name].get<std::size_t>()];
