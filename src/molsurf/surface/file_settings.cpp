@@ -132,10 +132,9 @@ std::vector<FileSetting> solverSettings()
 std::vector<FileSetting> tomogramSettings()
 {
     constexpr unsigned both = holds::Density | holds::Mask;
-    auto box =
-        countRow<FileSettings>({"box-size", "N",
-                                "pixels on an edge of the box, even; without it the least"},
-                               2, 1290, MOLSURF_OF(tomogram.box));
+    auto box = countRow<FileSettings>(
+        {"box-size", "N", "pixels on an edge of the box, even; without it the least"}, 2, 1290,
+        MOLSURF_OF(tomogram.box));
     box.set = [set = box.set](FileSettings& to, const Values& values) {
         set(to, values);
         if (to.tomogram.box % 2 != 0)
