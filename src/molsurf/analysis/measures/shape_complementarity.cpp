@@ -289,18 +289,19 @@ double middleOf(std::array<double, size>& values)
     return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-constexpr std::size_t rings = 128; // of equal area on a cap
+constexpr std::size_t rings = 128;   // of equal area on a cap, for a median
+constexpr std::size_t fewRings = 32; // for an integral, to 2e-4 of it
 
 /// Calls f(k, shape, square) for the rings of a cap up to an angle: the cosine of their normals
 /// and those of the nearest points of the other's cap up to one, and the squares of the distances.
 /// @param[in] ends  the angles of both
-template<typename F>
+template<std::size_t count, typename F>
 void forEachRing(const BuriedCap& own, const BuriedCap& other, const std::array<double, 2>& ends,
                  double apart, const F& f)
 {
-    const double step = (1.0 - std::cos(ends[0])) / double(rings);
+    const double step = (1.0 - std::cos(ends[0])) / double(count);
     const Vec2d end(std::sin(ends[1]), std::cos(ends[1]));
-    for (std::size_t k = 0; k < rings; ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
         // In the half plane of the point, the axis leading from the other's centre to this one.
         const double u = 1.0 - (double(k) + 0.5) * step;
         const Vec2d normal(std::sqrt((1.0 - u) * (1.0 + u)), -u);
@@ -316,11 +317,11 @@ void forEachRing(const BuriedCap& own, const BuriedCap& other, const std::array<
 std::pair<double, double> mediansOf(const BuriedCap& own, const BuriedCap& other, double apart)
 {
     std::array<double, rings> shapes, distances;
-    forEachRing(own, other, {own.trimmed, other.trimmed}, apart,
-                [&](std::size_t k, double shape, double square) {
-                    shapes[k] = shape * std::exp(-decay * square);
-                    distances[k] = std::sqrt(square);
-                });
+    forEachRing<rings>(own, other, {own.trimmed, other.trimmed}, apart,
+                       [&](std::size_t k, double shape, double square) {
+                           shapes[k] = shape * std::exp(-decay * square);
+                           distances[k] = std::sqrt(square);
+                       });
     return {middleOf(shapes), middleOf(distances)};
 }
 
@@ -335,9 +336,10 @@ double contactOf(const BuriedCap& own, const BuriedCap& other, double apart)
 {
     if (own.cosine == 1.0 || other.cosine == 1.0) return 0.0;
     double sum = 0.0;
-    forEachRing(own, other, {std::acos(own.cosine), std::acos(other.cosine)}, apart,
-                [&](std::size_t, double, double square) { sum += std::exp(-decay * square); });
-    return areaOf(own) * sum / double(rings);
+    forEachRing<fewRings>(
+        own, other, {std::acos(own.cosine), std::acos(other.cosine)}, apart,
+        [&](std::size_t, double, double square) { sum += std::exp(-decay * square); });
+    return areaOf(own) * sum / double(fewRings);
 }
 
 void setMeans(const std::pair<double, double>& a, const std::pair<double, double>& b,
