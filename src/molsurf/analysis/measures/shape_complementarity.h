@@ -66,6 +66,7 @@ private:
     };
 
     Side sideOf(const FitSurface& own, const FitSurface& other, const Progress& progress);
+
     /// Sets contact, and shape and distance where both sides have points.
     /// @return the area that each side buries, their mean [Å^2]
     double sidesOf(const FitSurface& first, const FitSurface& second, const Progress& progress,

@@ -54,11 +54,11 @@ public:
         std::vector<Ball> runs; ///< about each run of them
     };
 
+private:
     /// The directions for a sphere, kept.
     /// @param[in] radius  [Å]
     const Spread& spreadOver(double radius);
 
-private:
     double probe_, density_;
     std::map<std::size_t, Spread> spreads_; // by their numbers: molecules have few radii
 };

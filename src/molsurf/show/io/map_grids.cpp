@@ -45,11 +45,14 @@ ScalarMap onCubes(const ScalarMap& map, double spacing)
     ScalarMap out;
     out.origin = map.origin;
     out.spacing = openvdb::Vec3d(spacing);
+    constexpr double rounding = 1e-9; // lest the last point is lost, or lies outside
+    openvdb::Vec3d last;
     double points = 1.0;
     for (int a = 0; a < 3; ++a) {
-        const double extent = double(map.counts[a] - 1) * map.spacing[a];
+        const double steps = double(map.counts[a] - 1), extent = steps * map.spacing[a];
+        last[a] = (steps - rounding) * map.spacing[a];
         points *= extent / spacing + 1.0;
-        out.counts[a] = std::size_t(extent / spacing * (1.0 + 1e-9)) + 1;
+        out.counts[a] = std::size_t(extent / spacing * (1.0 + rounding)) + 1;
     }
     constexpr double most = 2147483647.0; // as of maps that are read
     if (points > most)
@@ -57,9 +60,6 @@ ScalarMap onCubes(const ScalarMap& map, double spacing)
                                           " Å the map has " + formatted("%.3g", points) +
                                           " points, expected at most 2^31");
     out.values.reserve(out.counts[0] * out.counts[1] * out.counts[2]);
-    openvdb::Vec3d last;
-    constexpr double rounding = 1e-9; // lest the last point lies outside
-    for (int a = 0; a < 3; ++a) last[a] = (double(map.counts[a] - 1) - rounding) * map.spacing[a];
     for (std::size_t x = 0; x < out.counts[0]; ++x)
         for (std::size_t y = 0; y < out.counts[1]; ++y)
             for (std::size_t z = 0; z < out.counts[2]; ++z) {
