@@ -9,9 +9,8 @@
 #include "molsurf/molecule/selection/scalar_map.h"
 #include "molsurf/molecule/selection/subset.h"
 #include "molsurf/scale/bricks/brick_file.h"
-#include "molsurf/show/io/json_number.h"
+#include "molsurf/show/io/json_members.h"
 
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_sort.h>
 #include <zlib.h>
 
@@ -34,10 +33,126 @@ namespace molsurf
 using openvdb::Coord;
 using openvdb::Vec3d;
 
+/// A copy in the header.
+struct StoredCopy {
+    std::size_t part = 0;
+    Motion motion;
+};
+
+/// The lattice of a map in the header.
+struct StoredMap {
+    Vec3d origin, spacing;
+    std::array<std::uint32_t, 3> counts{};
+    std::uint32_t checksum = 0; ///< of its values
+};
+
+/// Values of balls in the header.
+struct StoredValues {
+    BallValues values; ///< without those of the balls, and without the map
+    std::optional<StoredMap> map;
+};
+
+/// The header of a file: what all balls share.
+struct AtomsHeader {
+    std::size_t atoms = 0;
+    std::vector<StoredCopy> copies;   ///< empty: nothing is folded
+    std::vector<std::string> columns; ///< the names of what each ball has
+    GaussianExtent extent;
+    BallSet shared; ///< without balls and values
+    std::optional<StoredValues> values;
+};
+
+template<typename Rows>
+void members(Rows& rows, StoredCopy& copy)
+{
+    rows(copy.part);
+    for (std::size_t k = 0; k < 3; ++k) {
+        for (double& entry : copy.motion.rotation[k]) rows(entry);
+        rows(copy.motion.translation[int(k)]);
+    }
+}
+
+template<typename Rows>
+void members(Rows& rows, GaussianExtent& extent)
+{
+    rows(extent.maxRadius);
+    rows(extent.maxGrownRadius);
+    rows(extent.maxTolerance);
+}
+
+template<typename Rows>
+void members(Rows& rows, ResolutionGroup& group)
+{
+    rows(group.rule.select);
+    rows(group.rule.resolution);
+    rows(group.balls);
+    rows(group.level);
+}
+
+template<typename Rows>
+void members(Rows& rows, Group& group)
+{
+    rows(group.name);
+    rows(group.balls);
+    rows(group.color);
+    rows(group.place);
+}
+
+template<typename Rows>
+void members(Rows& rows, Coloring& coloring)
+{
+    rows("range", coloring.range);
+    rows("palette", coloring.palette);
+    rows("by_residue", coloring.byResidue);
+    rows("flat", coloring.flat);
+    rows("outward", coloring.potentialOffset);
+}
+
+template<typename Rows>
+void members(Rows& rows, StoredMap& map)
+{
+    rows("origin", map.origin);
+    rows("spacing", map.spacing);
+    rows("counts", map.counts);
+    rows("checksum", map.checksum);
+}
+
+template<typename Rows>
+void members(Rows& rows, StoredValues& stored)
+{
+    BallValues& values = stored.values;
+    rows("name", values.name);
+    rows("title", values.title);
+    rows("unit", values.unit);
+    rows("palette", values.palette);
+    rows("low", values.low);
+    rows("high", values.high);
+    rows("flat", values.flat);
+    if (rows.has("centre", values.centre.has_value())) rows("centre", values.centre);
+    if (rows.has("map", stored.map.has_value())) rows("map", stored.map);
+}
+
+template<typename Rows>
+void members(Rows& rows, AtomsHeader& header)
+{
+    BallSet& shared = header.shared;
+    rows("atoms", header.atoms);
+    rows("copies", header.copies);
+    rows("columns", header.columns);
+    rows("model", shared.record.model);
+    rows("extent", header.extent);
+    rows("resolutions", shared.resolutions);
+    rows("coloring", shared.coloring);
+    if (!rows.has("chains", shared.labels.has_value())) return;
+    BallLabels& labels = shared.labels ? *shared.labels : shared.labels.emplace();
+    rows("chains", labels.chains);
+    rows("chain_places", labels.chainPlaces);
+    rows("groups", labels.groups);
+    if (rows.has("values", header.values.has_value())) rows("values", header.values);
+}
+
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 /// The file: this, records cell by cell, the values of a map, the cells, a header in JSON, and the
 /// lengths of these three.
@@ -106,26 +221,6 @@ Record recordOf(const BallSet& atoms, std::size_t i)
     return r;
 }
 
-Json json(const std::optional<std::array<std::uint8_t, 3>>& color)
-{
-    return color ? Json(*color) : Json();
-}
-
-Json json(const BallValues& values)
-{
-    Json out = {{"name", values.name},       {"title", values.title}, {"unit", values.unit},
-                {"palette", values.palette}, {"low", values.low},     {"high", values.high},
-                {"flat", values.flat}};
-    if (values.centre) out["centre"] = {values.centre->x(), values.centre->y(), values.centre->z()};
-    if (const ScalarMap* map = values.field.get()) {
-        out["map"] = {{"origin", {map->origin.x(), map->origin.y(), map->origin.z()}},
-                      {"spacing", {map->spacing.x(), map->spacing.y(), map->spacing.z()}},
-                      {"counts", {map->counts[0], map->counts[1], map->counts[2]}},
-                      {"checksum", checksumOfBytes(map->values.data(), 4 * map->values.size())}};
-    }
-    return out;
-}
-
 /// Calls f(name, column) for all that each ball may have.
 template<typename Balls, typename F>
 void forEachColumn(Balls& atoms, const F& f)
@@ -142,9 +237,9 @@ void forEachColumn(Balls& atoms, const F& f)
 }
 
 /// The names of what each ball has.
-Json columns(const BallSet& atoms)
+std::vector<std::string> columns(const BallSet& atoms)
 {
-    Json names = Json::array();
+    std::vector<std::string> names;
     forEachColumn(atoms, [&](const char* name, const auto& column) {
         if (!column.empty()) names.push_back(name);
     });
@@ -153,7 +248,7 @@ Json columns(const BallSet& atoms)
 
 /// Gives one entry to each column that the header names, by which addBall() knows it.
 /// @throws std::range_error if the rest of the header asks for one that it does not name
-void markColumns(const Json& names, BallSet& atoms)
+void markColumns(const std::vector<std::string>& names, BallSet& atoms)
 {
     std::set<std::string> lacking;
     if (!atoms.resolutions.empty()) lacking = {"resolution", "decay"};
@@ -199,38 +294,25 @@ bool addBall(const Record& r, const Vec3d& centre, const BallSet& like, BallSet&
     return true;
 }
 
-/// The copies of a folded set, one a row: its part, and its motion row by row.
-Json copiesOf(const Placement& placement)
+/// The copies of a folded set.
+std::vector<StoredCopy> copiesOf(const Placement& placement)
 {
-    Json rows = Json::array();
-    if (!placement.folded) return rows;
-    for (const Instance& copy : placement.instances) {
-        Json row = {copy.part};
-        for (std::size_t k = 0; k < 3; ++k) {
-            for (const double entry : copy.rotation[k]) row.push_back(entry);
-            row.push_back(copy.translation[int(k)]);
-        }
-        rows.push_back(std::move(row));
-    }
-    return rows;
+    std::vector<StoredCopy> copies;
+    if (!placement.folded) return copies;
+    for (const Instance& copy : placement.instances) copies.push_back({copy.part, copy});
+    return copies;
 }
 
 /// The motions of each part: where nothing is folded the only part stays where it is.
 /// @throws std::range_error if a copy is none
-std::vector<std::vector<Motion>> parseCopies(const Json& rows)
+std::vector<std::vector<Motion>> motionsOf(const std::vector<StoredCopy>& copies)
 {
-    if (rows.empty()) return {{Motion::identity()}};
+    if (copies.empty()) return {{Motion::identity()}};
     std::vector<std::vector<Motion>> motions;
-    for (const Json& row : rows) {
-        const std::size_t part = jsonNumber<std::uint32_t>(row.at(0));
-        const auto numbers = jsonNumbers<double>(row);
-        if (numbers.size() != 13 || part >= rows.size()) throw std::range_error("copies are none");
-        if (part >= motions.size()) motions.resize(part + 1);
-        Motion& motion = motions[part].emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
-            for (std::size_t j = 0; j < 3; ++j) motion.rotation[k][j] = numbers[1 + 4 * k + j];
-            motion.translation[int(k)] = numbers[4 + 4 * k];
-        }
+    for (const StoredCopy& copy : copies) {
+        if (copy.part >= copies.size()) throw std::range_error("copies are none");
+        if (copy.part >= motions.size()) motions.resize(copy.part + 1);
+        motions[copy.part].push_back(copy.motion);
     }
     return motions;
 }
@@ -247,111 +329,30 @@ openvdb::BBoxd moved(const openvdb::BBoxd& box, const Motion& motion)
     return {middle - reach, middle + reach};
 }
 
-/// The header: values that all balls share.
-std::string headerText(const BallSet& atoms, const GaussianExtent& extent)
+/// The header of balls.
+AtomsHeader headerOf(const BallSet& atoms, const GaussianExtent& extent)
 {
-    Json resolutions = Json::array(), groups = Json::array();
-    for (const ResolutionGroup& r : atoms.resolutions)
-        resolutions.push_back({r.rule.select, r.rule.resolution, r.balls, r.level});
-    Json out = {{"atoms", atoms.balls.size()},
-                {"copies", copiesOf(atoms.placement)},
-                {"columns", columns(atoms)},
-                {"model", atoms.record.model},
-                {"extent", {extent.maxRadius, extent.maxGrownRadius, extent.maxTolerance}},
-                {"resolutions", std::move(resolutions)}};
-    const Coloring& coloring = atoms.coloring;
-    out["coloring"] = {
-        {"range", coloring.range ? Json(*coloring.range) : Json()},
-        {"palette", coloring.palette},
-        {"by_residue", coloring.byResidue},
-        {"flat", coloring.flat},
-        {"outward", coloring.potentialOffset ? Json(*coloring.potentialOffset) : Json()}};
-    if (atoms.labels) {
-        const BallLabels& labels = *atoms.labels;
-        for (const Group& g : labels.groups)
-            groups.push_back({g.name, g.balls, json(g.color), g.place});
-        out["chains"] = labels.chains;
-        out["chain_places"] = labels.chainPlaces;
-        out["groups"] = std::move(groups);
-        if (labels.values) out["values"] = json(*labels.values);
-    }
-    return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+    AtomsHeader header{atoms.balls.size(), copiesOf(atoms.placement), columns(atoms), extent, {},
+                       std::nullopt};
+    header.shared.record.model = atoms.record.model;
+    header.shared.resolutions = atoms.resolutions;
+    header.shared.coloring = atoms.coloring;
+    if (!atoms.labels) return header;
+    BallLabels& labels = header.shared.labels.emplace();
+    labels.chains = atoms.labels->chains;
+    labels.chainPlaces = atoms.labels->chainPlaces;
+    labels.groups = atoms.labels->groups;
+    if (!atoms.labels->values) return header;
+    StoredValues& stored = header.values.emplace();
+    stored.values = *atoms.labels->values;
+    if (const ScalarMap* map = stored.values.field.get())
+        stored.map = {map->origin,
+                      map->spacing,
+                      {std::uint32_t(map->counts[0]), std::uint32_t(map->counts[1]),
+                       std::uint32_t(map->counts[2])},
+                      checksumOfBytes(map->values.data(), 4 * map->values.size())};
+    return header;
 }
-
-template<typename T>
-std::optional<T> optional(const Json& json)
-{
-    return json.is_null() ? std::nullopt : std::optional<T>(json.get<T>());
-}
-
-Vec3d vector(const Json& json)
-{
-    const auto x = jsonNumbers<double>(json);
-    if (x.size() != 3) throw std::range_error("places are none");
-    return {x[0], x[1], x[2]};
-}
-
-BallValues parseValues(const Json& j)
-{
-    BallValues values;
-    values.name = j.at("name");
-    values.title = j.at("title");
-    values.unit = j.at("unit");
-    values.palette = j.at("palette");
-    values.low = jsonNumber<double>(j.at("low"));
-    values.high = jsonNumber<double>(j.at("high"));
-    values.flat = j.at("flat");
-    if (j.contains("centre")) values.centre = vector(j["centre"]);
-    return values;
-}
-
-/// The lattice of a map, without its values.
-ScalarMap parseMap(const Json& j)
-{
-    ScalarMap map;
-    map.origin = vector(j.at("origin"));
-    map.spacing = vector(j.at("spacing"));
-    const auto counts = jsonNumbers<std::uint32_t>(j.at("counts"));
-    if (counts.size() != 3) throw std::range_error("counts are none");
-    std::copy(counts.begin(), counts.end(), map.counts);
-    return map;
-}
-
-/// The opposite of headerText(), but for "columns", "extent" and the map.
-BallSet parseHeader(const Json& j)
-{
-    BallSet out;
-    out.record.model = jsonNumber<int>(j.at("model"));
-    for (const Json& r : j.at("resolutions")) {
-        out.resolutions.push_back({{r.at(0), jsonNumber<double>(r.at(1))},
-                                   jsonNumber<std::size_t>(r.at(2)),
-                                   jsonNumber<double>(r.at(3))});
-    }
-    const Json& coloring = j.at("coloring");
-    out.coloring.range = optional<std::array<double, 2>>(coloring.at("range"));
-    out.coloring.palette = coloring.at("palette");
-    out.coloring.byResidue = coloring.at("by_residue");
-    out.coloring.flat = coloring.at("flat");
-    out.coloring.potentialOffset = optional<double>(coloring.at("outward"));
-    if (!j.contains("chains")) return out;
-    BallLabels& labels = out.labels.emplace();
-    labels.chains = j["chains"].get<std::vector<std::string>>();
-    labels.chainPlaces = jsonNumbers<std::int32_t>(j.at("chain_places"));
-    if (!labels.chainPlaces.empty() && labels.chainPlaces.size() != labels.chains.size())
-        throw std::range_error("places of chains are none");
-    for (const Json& g : j.at("groups")) {
-        labels.groups.push_back({g.at(0), jsonNumber<std::size_t>(g.at(1)),
-                                 optional<std::array<std::uint8_t, 3>>(g.at(2)),
-                                 jsonNumber<std::int32_t>(g.at(3))});
-    }
-    if (j.contains("values")) labels.values = parseValues(j["values"]);
-    return out;
-}
-
-} // namespace
-
-namespace
-{
 
 /// A ball by its part and the cell of its centre.
 struct PlacedInCell {
@@ -409,7 +410,7 @@ std::string writeAtoms(const BallSet& atoms, const GaussianExtent& extent, Outpu
         tail.map = values.size() * sizeof(float);
         file.write(values.data(), tail.map);
     }
-    const std::string header = headerText(atoms, extent);
+    const std::string header = jsonText(headerOf(atoms, extent), -1);
     tail.cells = cells.size() * sizeof(AtomCell);
     tail.header = header.size();
     std::string index(reinterpret_cast<const char*>(cells.data()), tail.cells);
@@ -431,7 +432,7 @@ AtomsFile::AtomsFile(const std::string& path)
     const off_t end = lseek(file_.get(), 0, SEEK_END);
     try {
         readIndex(end < 0 ? 0 : std::uint64_t(end));
-    } catch (const Json::exception&) {
+    } catch (const nlohmann::json::exception&) {
         refuse("its header cannot be read");
     } catch (const std::range_error& e) {
         refuse(std::string("its ") + e.what());
@@ -462,28 +463,36 @@ void AtomsFile::readIndex(std::uint64_t size)
     if (tail.cells > 0) std::memcpy(cells_.data(), index_.data(), tail.cells);
     std::uint64_t atoms = 0;
     for (const AtomCell& cell : cells_) atoms += cell.count;
-    const Json j = Json::parse(index_.substr(tail.cells, tail.header));
-    if (atoms == 0 || atoms > most / sizeof(Record) ||
-        atoms != jsonNumber<std::uint64_t>(j.at("atoms")) ||
+    const auto h = JsonReader::valueOf<AtomsHeader>(
+        nlohmann::json::parse(index_.substr(tail.cells, tail.header)));
+    if (atoms == 0 || atoms > most / sizeof(Record) || atoms != h.atoms ||
         atoms * sizeof(Record) != most - tail.map - tail.cells - tail.header)
         refuse("its atoms are not as many as it says");
-    motions_ = parseCopies(j.at("copies"));
+    motions_ = motionsOf(h.copies);
     for (const AtomCell& cell : cells_)
         if (cell.part >= motions_.size()) refuse("a cell is of no part");
-    shared_ = parseHeader(j);
-    const Vec3d lengths = vector(j.at("extent"));
-    extent_ = {lengths[0], lengths[1], lengths[2]};
-    markColumns(j.at("columns"), shared_);
-    if (!shared_.labels || !shared_.labels->values || !j["values"].contains("map")) return;
-    ScalarMap map = parseMap(j["values"]["map"]);
+    shared_ = h.shared;
+    extent_ = h.extent;
+    if (h.values) shared_.labels->values = h.values->values;
+    if (shared_.labels && !shared_.labels->chainPlaces.empty() &&
+        shared_.labels->chainPlaces.size() != shared_.labels->chains.size())
+        refuse("its places of chains are none");
+    markColumns(h.columns, shared_);
+    if (h.values && h.values->map) readMap(*h.values->map, cells - tail.map, tail.map);
+}
+
+void AtomsFile::readMap(const StoredMap& stored, std::uint64_t at, std::uint64_t bytes)
+{
+    ScalarMap map;
+    map.origin = stored.origin;
+    map.spacing = stored.spacing;
+    std::copy(stored.counts.begin(), stored.counts.end(), map.counts);
     if (double(map.counts[0]) * double(map.counts[1]) * double(map.counts[2]) * 4.0 !=
-        double(tail.map))
+        double(bytes))
         refuse("its map is cut short");
-    map.values.resize(tail.map / sizeof(float));
-    readAt(file_, path_, cells - tail.map, map.values.data(), tail.map);
-    if (checksumOfBytes(map.values.data(), tail.map) !=
-        jsonNumber<std::uint32_t>(j["values"]["map"].at("checksum")))
-        refuse("its map is damaged");
+    map.values.resize(bytes / sizeof(float));
+    readAt(file_, path_, at, map.values.data(), bytes);
+    if (checksumOfBytes(map.values.data(), bytes) != stored.checksum) refuse("its map is damaged");
     shared_.labels->values->field = std::make_shared<ScalarMap>(std::move(map));
 }
 

@@ -32,6 +32,8 @@ struct AtomCell {
 std::string writeAtoms(const BallSet& atoms, const GaussianExtent& extent, OutputFile& file,
                        const Progress& progress);
 
+struct StoredMap;
+
 /// The atoms of a plan. Nothing is read but the index, until balls are asked for.
 class AtomsFile
 {
@@ -52,6 +54,7 @@ public:
 private:
     [[noreturn]] void refuse(const std::string& what) const;
     void readIndex(std::uint64_t size);
+    void readMap(const StoredMap& stored, std::uint64_t at, std::uint64_t bytes);
     std::vector<const Motion*> motionsInto(const openvdb::BBoxd& space, const AtomCell& cell) const;
     void readCell(const AtomCell& cell, std::uint64_t at, const openvdb::BBoxd& space,
                   const std::vector<const Motion*>& motions, BallSet& out) const;

@@ -4,10 +4,9 @@
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/core/transient_error.h"
-#include "molsurf/show/io/json_number.h"
+#include "molsurf/show/io/json_members.h"
 #include "molsurf/show/io/write_vdb.h"
 
-#include <nlohmann/json.hpp>
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/io.h>
 #include <zlib.h>
@@ -28,10 +27,86 @@
 namespace molsurf
 {
 
+template<typename Rows>
+void members(Rows& rows, Section& section)
+{
+    rows(section.offset);
+    rows(section.count);
+}
+
+template<typename Rows>
+void members(Rows& rows, StoredGrid& grid)
+{
+    rows("name", grid.name);
+    rows("type", grid.type);
+    rows("class", grid.gridClass);
+    rows("background", grid.background);
+    rows("half", grid.half);
+    if (rows.has("metadata", true)) rows("metadata", grid.metadata);
+    rows("leaves", grid.leaves);
+}
+
+template<typename Rows>
+void members(Rows& rows, Report::Group& group)
+{
+    rows("name", group.name);
+    rows("atoms", group.atoms);
+    rows("area", group.area);
+    if (rows.has("color", true)) rows("color", group.color);
+}
+
+template<typename Rows>
+void members(Rows& rows, EvolutionReport& evolution)
+{
+    rows("steps", evolution.steps);
+    rows("energy", evolution.energy);
+    rows("final_energy", evolution.finalEnergy);
+    rows("area", evolution.area);
+    rows("volume", evolution.volume);
+    rows("mean_displacement", evolution.meanDisplacement);
+    rows("max_speed", evolution.maxSpeed);
+    rows("crevice_voxels", evolution.unresolvedGapVoxels);
+}
+
+template<typename Rows>
+void members(Rows& rows, Displacements& moves)
+{
+    rows("count", moves.count);
+    rows("moved", moves.moved);
+    rows("square", moves.square);
+    rows("bins", moves.bins);
+}
+
+template<typename Rows>
+void members(Rows& rows, BrickHeader& header)
+{
+    rows("plan", header.plan);
+    rows("brick", header.number);
+    rows("grids", header.grids);
+    rows("scalars", header.layout.scalars);
+    rows("labels", header.layout.labels);
+    rows("colors", header.layout.colors);
+    rows("vertices", header.vertices);
+    rows("areas", header.areas);
+    rows("curvatures", header.curvatures);
+    rows("triangles", header.triangles);
+    rows("border", header.border);
+    rows("open_edges", header.openEdges);
+    rows("pieces", header.pieces);
+    rows("closed", header.closed);
+    rows("manifold", header.manifold);
+    rows("degenerate_triangles", header.flat);
+    rows("max_residual", header.sums.maxResidual);
+    rows("kink_vertices", header.sums.kinkVertices);
+    rows("unit_vertices", header.sums.unitVertices);
+    rows("groups", header.sums.groups);
+    rows("evolution", header.sums.evolution);
+    rows("displacements", header.sums.displacements);
+    rows("seconds", header.sums.seconds);
+}
+
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array<char, 8> magic = {'M', 'O', 'L', 'B', 'R', 'K', '0', '5'};
 
@@ -167,146 +242,6 @@ void writeVertices(const Mesh& mesh, std::size_t count, const PlyLayout& layout,
     }
 }
 
-Json json(const Section& section)
-{
-    return {section.offset, section.count};
-}
-
-Section section(const Json& json)
-{
-    return {jsonNumber<std::uint64_t>(json.at(0)), jsonNumber<std::uint64_t>(json.at(1))};
-}
-
-Json json(const EvolutionReport& e)
-{
-    return {{"steps", e.steps},
-            {"energy", e.energy},
-            {"final_energy", e.finalEnergy},
-            {"area", e.area},
-            {"volume", e.volume},
-            {"mean_displacement", e.meanDisplacement},
-            {"max_speed", e.maxSpeed},
-            {"crevice_voxels", e.unresolvedGapVoxels}};
-}
-
-Json json(const Displacements& d)
-{
-    return {{"count", d.count}, {"moved", d.moved}, {"square", d.square}, {"bins", d.bins}};
-}
-
-Displacements displacements(const Json& json)
-{
-    Displacements d;
-    const auto number = [](const Json& n) { return jsonNumber<std::uint64_t>(n); };
-    d.count = number(json.at("count"));
-    d.moved = number(json.at("moved"));
-    d.square = number(json.at("square"));
-    for (std::size_t i = 0; i < d.bins.size(); ++i) d.bins[i] = number(json.at("bins").at(i));
-    return d;
-}
-
-EvolutionReport evolution(const Json& json)
-{
-    EvolutionReport e;
-    const auto numbers = [&](const char* name) { return jsonNumbers<double>(json.at(name)); };
-    e.steps = jsonNumber<int>(json.at("steps"));
-    e.finalEnergy = jsonNumber<double>(json.at("final_energy"));
-    e.energy = numbers("energy");
-    e.area = numbers("area");
-    e.volume = numbers("volume");
-    e.meanDisplacement = numbers("mean_displacement");
-    e.maxSpeed = numbers("max_speed");
-    e.unresolvedGapVoxels = jsonNumber<std::size_t>(json.at("crevice_voxels"));
-    return e;
-}
-
-std::string headerText(const BrickHeader& h)
-{
-    Json grids = Json::array(), groups = Json::array(), seconds = Json::array();
-    for (const StoredGrid& g : h.grids) {
-        grids.push_back(Json{{"name", g.name},
-                             {"type", g.type},
-                             {"class", g.gridClass},
-                             {"background", g.background},
-                             {"half", g.half},
-                             {"metadata", g.metadata},
-                             {"leaves", json(g.leaves)}});
-    }
-    for (const Report::Group& g : h.sums.groups)
-        groups.push_back(
-            Json{{"name", g.name}, {"atoms", g.atoms}, {"area", g.area}, {"color", g.color}});
-    for (const auto& [stage, time] : h.sums.seconds) seconds.push_back(Json{stage, time});
-    const BrickSums& b = h.sums;
-    const Json text = {{"plan", h.plan},
-                       {"brick", h.number},
-                       {"grids", std::move(grids)},
-                       {"scalars", h.layout.scalars},
-                       {"labels", h.layout.labels},
-                       {"colors", h.layout.colors},
-                       {"vertices", json(h.vertices)},
-                       {"areas", json(h.areas)},
-                       {"curvatures", json(h.curvatures)},
-                       {"triangles", json(h.triangles)},
-                       {"border", json(h.border)},
-                       {"open_edges", json(h.openEdges)},
-                       {"pieces", json(h.pieces)},
-                       {"closed", h.closed},
-                       {"manifold", h.manifold},
-                       {"degenerate_triangles", h.flat},
-                       {"max_residual", b.maxResidual},
-                       {"kink_vertices", b.kinkVertices},
-                       {"unit_vertices", b.unitVertices},
-                       {"groups", std::move(groups)},
-                       {"evolution", b.evolution ? json(*b.evolution) : Json()},
-                       {"displacements", json(b.displacements)},
-                       {"seconds", std::move(seconds)}};
-    return text.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-BrickHeader parseHeader(const std::string& text)
-{
-    const Json j = Json::parse(text);
-    BrickHeader h;
-    h.plan = j.at("plan");
-    const auto count = [](const Json& number) { return jsonNumber<std::size_t>(number); };
-    h.number = count(j.at("brick"));
-    for (const Json& g : j.at("grids")) {
-        h.grids.push_back({g.at("name"), g.at("type"), g.at("class"),
-                           jsonNumbers<double>(g.at("background")), g.at("half"),
-                           section(g.at("leaves")),
-                           g.value("metadata", std::map<std::string, std::string>())});
-    }
-    h.layout.scalars = j.at("scalars").get<std::vector<std::string>>();
-    h.layout.labels = j.at("labels").get<std::vector<std::string>>();
-    h.layout.colors = j.at("colors");
-    h.vertices = section(j.at("vertices"));
-    h.areas = section(j.at("areas"));
-    h.curvatures = section(j.at("curvatures"));
-    h.triangles = section(j.at("triangles"));
-    h.border = section(j.at("border"));
-    h.openEdges = section(j.at("open_edges"));
-    h.pieces = section(j.at("pieces"));
-    h.closed = j.at("closed");
-    h.manifold = j.at("manifold");
-    h.flat = count(j.at("degenerate_triangles"));
-    h.sums.maxResidual = jsonNumber<double>(j.at("max_residual"));
-    h.sums.kinkVertices = count(j.at("kink_vertices"));
-    h.sums.unitVertices = count(j.at("unit_vertices"));
-    for (const Json& g : j.at("groups")) {
-        Report::Group group;
-        group.name = g.at("name");
-        group.atoms = count(g.at("atoms"));
-        group.area = jsonNumber<double>(g.at("area"));
-        group.color = g.value("color", "");
-        h.sums.groups.push_back(group);
-    }
-    if (!j.at("evolution").is_null()) h.sums.evolution = evolution(j.at("evolution"));
-    h.sums.displacements = displacements(j.at("displacements"));
-    for (const Json& s : j.at("seconds"))
-        h.sums.seconds.emplace_back(s.at(0), jsonNumber<double>(s.at(1)));
-    return h;
-}
-
 /// Checks what a hostile header could break: that counts agree, and that sections follow one after
 /// another as writeBrick() puts them, so that nothing lies outside and nothing counts twice.
 /// @param[in] end  where the header begins
@@ -416,7 +351,7 @@ void writeBrick(const Brick& brick, const std::string& plan, std::size_t number,
     header.border = writer.add(brick.mesh.border);
     header.openEdges = writer.add(brick.mesh.openEdges);
     header.pieces = writer.add(brick.mesh.pieces);
-    const std::string text = headerText(header);
+    const std::string text = jsonText(header, -1);
     head.header = writer.at();
     head.length = text.size();
     writer.bytes(text.data(), text.size());
@@ -459,9 +394,9 @@ BrickFile::BrickFile(const std::string& path, const openvdb::CoordBBox& box)
         if (checksumOf(size) != head.checksum) noBrick("it is damaged: its checksum is another");
         std::string text(head.length, ' ');
         read(head.header, text.data(), text.size());
-        header_ = parseHeader(text);
+        header_ = JsonReader::valueOf<BrickHeader>(nlohmann::json::parse(text));
         checkHeader(header_, head.header);
-    } catch (const Json::exception&) {
+    } catch (const nlohmann::json::exception&) {
         noBrick("its header cannot be read");
     } catch (const std::range_error& e) {
         noBrick(std::string("its ") + e.what());

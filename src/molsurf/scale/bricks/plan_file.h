@@ -24,6 +24,7 @@ struct PlanInput {
 
 /// The content of plan.json: what to compute, and how it is cut.
 struct PlanManifest {
+    std::string program = "vdb_molsurf";
     std::string version; ///< of the program
     std::string input;   ///< the structure
     /// Options of the surface that were given, by name, with their values.

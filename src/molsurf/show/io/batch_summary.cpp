@@ -2,57 +2,83 @@
 #include "molsurf/show/io/batch_summary.h"
 
 #include "molsurf/error.h"
-#include "molsurf/show/io/json_number.h"
+#include "molsurf/show/io/json_members.h"
 #include "molsurf/show/io/write_table.h"
-
-#include <nlohmann/json.hpp>
 
 #include <stdexcept>
 
 namespace molsurf
 {
 
-namespace
+/// What tables and journals have of a structure, by its status.
+template<typename Rows>
+void members(Rows& rows, BatchEntry& entry)
 {
-
-using Json = nlohmann::ordered_json;
-
-Json jsonOf(const BatchEntry& e)
-{
-    Json entry = {{"input", e.input}, {"sha256", e.sha256}, {"status", e.status}};
-    if (e.status == "failed") {
-        entry["message"] = e.message;
-    } else if (e.status != "begun") {
-        entry.update(Json{
-            {"atoms", e.atoms},
-            {"area", e.area},
-            {"volume", e.volume},
-            {"euler_characteristic", e.eulerCharacteristic ? Json(*e.eulerCharacteristic) : Json()},
-            {"components", e.components},
-            {"cavities", e.cavities},
-            {"seconds", e.seconds}});
+    rows("input", entry.input);
+    rows("sha256", entry.sha256);
+    rows("status", entry.status);
+    if (entry.status == "failed") {
+        rows("message", entry.message);
+    } else if (entry.status != "begun") {
+        rows("atoms", entry.atoms);
+        rows("area", entry.area);
+        rows("volume", entry.volume);
+        rows("euler_characteristic", entry.eulerCharacteristic);
+        rows("components", entry.components);
+        rows("cavities", entry.cavities);
+        rows("seconds", entry.seconds);
     }
-    return entry;
 }
 
-std::string textOf(const Json& json, int indent)
+/// Units of the tables.
+struct SummaryUnits {
+    std::string area = "Angstrom^2", volume = "Angstrom^3", seconds = "s";
+};
+
+template<typename Rows>
+void members(Rows& rows, SummaryUnits& units)
 {
-    return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+    rows("area", units.area);
+    rows("volume", units.volume);
+    rows("seconds", units.seconds);
 }
 
-} // namespace
+template<typename Rows>
+void members(Rows& rows, BatchSummary& summary)
+{
+    SummaryUnits units;
+    rows("version", summary.version);
+    rows("options", summary.options);
+    rows("options_sha256", summary.optionsSha256);
+    rows("units", units);
+    rows("structures", summary.entries);
+}
+
+/// The first line of a journal, and another.
+struct JournalHeader {
+    std::string version, options;
+};
+struct JournalLine {
+    BatchEntry entry;
+};
+
+template<typename Rows>
+void members(Rows& rows, JournalHeader& header)
+{
+    rows("version", header.version);
+    rows("options", header.options);
+}
+
+template<typename Rows>
+void members(Rows& rows, JournalLine& line)
+{
+    rows("name", line.entry.name);
+    members(rows, line.entry);
+}
 
 void writeSummaryJson(const BatchSummary& summary, OutputFile& file)
 {
-    Json structures = Json::array();
-    for (const BatchEntry& entry : summary.entries) structures.push_back(jsonOf(entry));
-    file.write(
-        textOf({{"version", summary.version},
-                {"options", summary.options},
-                {"options_sha256", summary.optionsSha256},
-                {"units", {{"area", "Angstrom^2"}, {"volume", "Angstrom^3"}, {"seconds", "s"}}},
-                {"structures", std::move(structures)}},
-               2));
+    file.write(jsonText(summary, 2) + "\n");
     file.finish();
 }
 
@@ -78,22 +104,20 @@ void writeSummaryCsv(const BatchSummary& summary, OutputFile& file)
 
 std::string journalHeader(const BatchSummary& summary)
 {
-    return textOf({{"version", summary.version}, {"options", summary.options}}, -1);
+    return jsonText(JournalHeader{summary.version, summary.options}, -1) + "\n";
 }
 
 std::string journalLine(const BatchEntry& entry)
 {
-    Json json = {{"name", entry.name}};
-    json.update(jsonOf(entry));
-    return textOf(json, -1);
+    return jsonText(JournalLine{entry}, -1) + "\n";
 }
 
 BatchSummary readJournalHeader(const std::string& line, const std::string& path)
 {
     try {
-        const Json json = Json::parse(line);
-        return {json.at("version"), json.at("options"), {}, {}};
-    } catch (const Json::exception&) {
+        const auto header = JsonReader::valueOf<JournalHeader>(nlohmann::json::parse(line));
+        return {header.version, header.options, {}, {}};
+    } catch (const nlohmann::json::exception&) {
         throw Error(ErrorKind::Input, path + ": is no journal of a batch");
     }
 }
@@ -101,26 +125,8 @@ BatchSummary readJournalHeader(const std::string& line, const std::string& path)
 std::optional<BatchEntry> readJournalLine(const std::string& line)
 {
     try {
-        const Json e = Json::parse(line);
-        BatchEntry entry;
-        entry.name = e.at("name");
-        entry.input = e.at("input");
-        entry.sha256 = e.at("sha256");
-        entry.status = e.at("status");
-        if (entry.status == "failed") {
-            entry.message = e.at("message");
-        } else if (entry.status != "begun") {
-            entry.atoms = jsonNumber<std::size_t>(e.at("atoms"));
-            entry.area = jsonNumber<double>(e.at("area"));
-            entry.volume = jsonNumber<double>(e.at("volume"));
-            if (const Json& euler = e.at("euler_characteristic"); !euler.is_null())
-                entry.eulerCharacteristic = jsonNumber<int>(euler);
-            entry.components = jsonNumber<int>(e.at("components"));
-            entry.cavities = jsonNumber<std::size_t>(e.at("cavities"));
-            entry.seconds = jsonNumber<double>(e.at("seconds"));
-        }
-        return entry;
-    } catch (const Json::exception&) {
+        return JsonReader::valueOf<JournalLine>(nlohmann::json::parse(line)).entry;
+    } catch (const nlohmann::json::exception&) {
     } catch (const std::range_error&) {
     }
     return {};
