@@ -7,6 +7,8 @@
 #include "signals.h"
 
 #include <molsurf/molecule/selection/shown_atoms.h>
+#include <molsurf/molecule/structure/sha256.h>
+#include <molsurf/request/identity.h>
 #include <molsurf/request/request_table.h>
 #include <molsurf/request/resolve.h>
 
@@ -749,7 +751,11 @@ void addSurface(nb::module_& m)
     });
     type.def_prop_ro("warnings", [](const MadeSurface& s) { return s.result.report.warnings; });
     type.def("report_text",
-             [](const MadeSurface& s) { return bytesOf(reportText(s.result.report)); })
+             [](const MadeSurface& s) {
+                 Report report = s.result.report;
+                 report.inputSha256 = inputSha256(s.atoms->record);
+                 return bytesOf(reportText(report));
+             })
         .def("contacts",
              [](MadeSurface& s) {
                  needContacts(s);
@@ -789,6 +795,17 @@ void addFunctions(nb::module_& m)
 {
     m.def("settings", describeSettings);
     m.def("former_names", formerNames);
+    using Pairs = std::vector<std::pair<std::string, std::vector<std::string>>>;
+    m.def("options_sha256", [](const Pairs& pairs) {
+        std::vector<GivenOption> given;
+        for (const auto& [name, values] : pairs) {
+            const OptionRow<Request>* row = findRow(requestTable(), name);
+            given.push_back(row ? givenOption(*row, values) : GivenOption{name, values, {}});
+        }
+        return identityOf(optionsLine(given));
+    });
+    m.def("input_sha256",
+          [](const std::string& path) { return sha256OfInput(path, ReadLimits().maxInput); });
     m.def("structure_endings", structureEndings);
     m.def("surface_endings", surfaceEndings);
     // Whether a colour needs what read() takes from a file; what is no colour does not.

@@ -10,7 +10,9 @@
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/sha256.h"
 #include "molsurf/molecule/structure/structure_list.h"
+#include "molsurf/request/identity.h"
 #include "molsurf/show/io/output_file.h"
 #include "molsurf/show/io/output_folders.h"
 #include "molsurf/show/io/read_report.h"
@@ -183,13 +185,13 @@ int batch(CommandLine call)
 {
     for (const OptionFile& file : filesOf(call.verb, call.given))
         if (file.option->get) failIfStream(file.path, "a file, which each structure needs again");
-    call.identity = identityOf(call); // of all
+    const std::string options = optionsLine(call); // of all
+    call.identity = identityOf(options);
     const std::vector<Task> tasks = tasksOf(call);
     MadeFolders folders;
     folders.make(call.folder);
     for (const std::string& path : BatchJournal::paths(call.folder)) checkWritable(path, true);
-    BatchJournal journal(call.folder, {MOLSURF_VERSION, optionsLine(call), {}, call.identity},
-                         call.force);
+    BatchJournal journal(call.folder, {MOLSURF_VERSION, options, {}, call.identity}, call.force);
     if (!call.quiet)
         for (const std::string& warning : call.warnings) printLine("warning: " + warning);
 

@@ -4,12 +4,12 @@
 #include "cli/option_table.h"
 #include "cli/parse.h"
 #include "input_files.h"
-#include "sha256.h"
 #include "stop.h"
 #include "verbs.h"
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/sha256.h"
 #include "molsurf/scale/bricks/atoms_file.h"
 #include "molsurf/scale/bricks/brick_file.h"
 #include "molsurf/scale/bricks/plan_bricks.h"

@@ -3,17 +3,17 @@
 
 #include "cli/option_table.h"
 #include "exit_status.h"
-#include "sha256.h"
 
-#include "molsurf/error.h"
-#include "molsurf/molecule/structure/archive.h"
 #include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/molecule/structure/sha256.h"
+#include "molsurf/request/identity.h"
 #include "molsurf/show/io/output_file.h"
 #include "molsurf/show/io/read_report.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <vector>
 
 namespace molsurf::tool
 {
@@ -39,34 +39,12 @@ bool changesResults(const Option& option, Verb verb)
 
 std::string optionsLine(const CommandLine& call)
 {
-    std::string line;
-    for (const OptionGroup& group : optionTable()) {
-        for (const Option& option : group.options) {
-            if (!changesResults(option, call.verb) || !call.has(option.name)) continue;
-            line += (line.empty() ? "--" : " --") + std::string(option.name);
-            for (const std::string& value : call.given.at(option.name)) line += " " + value;
-        }
-    }
-    for (const OptionFile& file : filesOf(call.verb, call.given))
-        if (file.option->get && !readsOnce(file.path))
-            line += " (" + file.path + ": " + sha256OfFile(file.path).substr(0, 16) + ")";
-    return line;
-}
-
-std::string identityOf(const CommandLine& call)
-{
-    return sha256OfText(MOLSURF_VERSION "\n" + optionsLine(call));
-}
-
-std::string sha256OfInput(const std::string& path, std::size_t maxBytes)
-{
-    std::error_code ignored;
-    try {
-        if (memberOf(path)) return sha256OfText(loadBytes(path, maxBytes));
-        return fs::is_regular_file(path, ignored) ? sha256OfFile(path) : "";
-    } catch (const Error&) {
-        return "";
-    }
+    std::vector<GivenOption> given;
+    for (const OptionGroup& group : optionTable())
+        for (const Option& option : group.options)
+            if (changesResults(option, call.verb) && call.has(option.name))
+                given.push_back(givenOption(option, call.given.at(option.name)));
+    return molsurf::optionsLine(given);
 }
 
 std::optional<int> statusOfExisting(CommandLine& call)
@@ -87,7 +65,8 @@ std::optional<int> statusOfExisting(CommandLine& call)
         return file.option->get && readsOnce(file.path);
     });
     const std::string input = hashed ? sha256OfInput(call.input, call.atoms.limits.maxInput) : "";
-    if (whole && !input.empty() && known->input == input && known->options == identityOf(call))
+    if (whole && !input.empty() && known->input == input &&
+        known->options == identityOf(optionsLine(call)))
         return known->converged ? doneStatus : notConvergedStatus;
     call.force = true;
     return std::nullopt;

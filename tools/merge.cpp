@@ -2,12 +2,12 @@
 #include "bricks.h"
 #include "input_files.h"
 #include "outputs.h"
-#include "sha256.h"
 #include "stop.h"
 #include "verbs.h"
 #include "write_result.h"
 
 #include "molsurf/error.h"
+#include "molsurf/molecule/structure/sha256.h"
 #include "molsurf/scale/bricks/merged_bricks.h"
 #include "molsurf/scale/bricks/plan_file.h"
 #include "molsurf/show/io/write_report.h"

@@ -11,6 +11,8 @@
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/flow/evolve.h"
 #include "molsurf/molecule/structure/archive.h"
+#include "molsurf/molecule/structure/sha256.h"
+#include "molsurf/request/identity.h"
 #include "molsurf/request/run_outputs.h"
 #include "molsurf/show/io/commit.h"
 #include "molsurf/show/io/temporary_file.h"
@@ -64,7 +66,7 @@ void beginReport(const CommandLine& call, Report& report)
     report.input = call.input;
     if (call.writes(Numbers | Grids)) {
         if (call.verb & (Build | Batch))
-            report.options = call.identity.empty() ? identityOf(call) : call.identity;
+            report.options = call.identity.empty() ? identityOf(optionsLine(call)) : call.identity;
         report.inputSha256 = call.inputSha256.empty()
                                  ? sha256OfInput(call.input, call.atoms.limits.maxInput)
                                  : call.inputSha256;

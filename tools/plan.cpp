@@ -2,11 +2,11 @@
 #include "bricks.h"
 #include "cli/option_table.h"
 #include "input_files.h"
-#include "sha256.h"
 #include "verbs.h"
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/structure/sha256.h"
 #include "molsurf/scale/bricks/atoms_file.h"
 #include "molsurf/scale/bricks/plan_bricks.h"
 #include "molsurf/scale/bricks/plan_file.h"

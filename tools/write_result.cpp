@@ -2,10 +2,9 @@
 #include "write_result.h"
 
 #include "cli/option_table.h"
-#include "identity.h"
-#include "sha256.h"
 #include "terminal.h"
 
+#include "molsurf/molecule/structure/sha256.h"
 #include "molsurf/request/format_table.h"
 #include "molsurf/request/run_metadata.h"
 
@@ -40,7 +39,7 @@ void writeOutput(const CommandLine& call, const BallSet& atoms, const MolecularS
             clipWarning(drawnSurface(call, atoms, result.mesh, shown), progress);
         if (!cut.empty()) printLine("warning: " + withOptionNames(cut));
     }
-    writeFile({call, atoms, result, result.mesh, shown,
+    writeFile({call, atoms, result, result.mesh, shown, result.report,
                [&] { return vdbMetadata(call, result.report); }, progress},
               output, file);
 }

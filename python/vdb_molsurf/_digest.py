@@ -9,16 +9,7 @@ import types
 
 import numpy as np
 
-CHUNK = 1 << 20
-
-
-def of_file(path):
-    """The SHA-256 of a file's bytes."""
-    digest = hashlib.sha256()
-    with open(path, "rb") as file:
-        while chunk := file.read(CHUNK):
-            digest.update(chunk)
-    return digest.hexdigest()
+from . import _core
 
 
 def of_input(item, content=None):
@@ -26,19 +17,15 @@ def of_input(item, content=None):
     try:
         if content is not None:
             return hashlib.sha256(content).hexdigest()
-        return of_value(tuple(item[1:])) if isinstance(item, tuple) else of_file(item)
+        return of_value(tuple(item[1:])) if isinstance(item, tuple) else _core.input_sha256(os.fspath(item)) or None
     except (OSError, TypeError, ValueError):
         return None
 
 
-def of_options(version, pairs):
+def of_options(pairs):
     """The SHA-256 of the version and of settings with their values, and of files that these name ("table=FILE")."""
-    seen = [version, sorted(pairs)]
-    for text in (text for _, texts in sorted(pairs) for text in texts if isinstance(text, str)):
-        for path in (text, text.partition("=")[2]):
-            if path and os.path.isfile(path):
-                seen.append((path, of_file(path)))
-    return of_value(seen)
+    return _core.options_sha256([(name, [text if isinstance(text, str) else repr(text) for text in texts])
+                                 for name, texts in sorted(pairs, key=lambda pair: pair[0])])
 
 
 def of_value(value):

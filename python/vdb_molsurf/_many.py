@@ -245,7 +245,7 @@ def row_of(item, content, function, options, hours=None):
 
 def _rows(shard, function, folder, format, options, make):
     """The rows of a shard, those of its part that are still true and those that `make` makes."""
-    origin = {"options": _digest.of_options(_core.__version__, _settings(options)),
+    origin = {"options": _digest.of_options(_settings(options)),
               "function": function and _digest.of_value(function), "version": _core.__version__, "units": _parts.UNITS}
     path = None
     if folder is not None:

@@ -4,6 +4,7 @@
 #include "molsurf/molecule/selection/match_atoms.h"
 #include "molsurf/molecule/selection/search_places.h"
 #include "molsurf/molecule/selection/select_balls.h"
+#include "molsurf/molecule/structure/load_text.h"
 #include "molsurf/molecule/structure/read_structure.h"
 
 #include <numeric>
@@ -20,7 +21,7 @@ Molecule::Molecule(std::shared_ptr<const Structure> structure, std::string input
 Molecule::Molecule(const std::string& path, const Progress& progress, const ReadLimits& limits)
     : structure_(std::make_shared<const Structure>(
           readStructure(path, limits.maxInput, progress, limits.memory))),
-      input_(path)
+      input_(path), isFile_(!readsOnce(path))
 {
 }
 
@@ -38,6 +39,7 @@ BallSet Molecule::balls(const SelectOptions& options, const LabelOptions& labels
     checkOptions(labels);
     BallSet balls = selectBalls(*structure_, options, labels, probe, progress);
     balls.record.input = input_;
+    balls.record.isFile = isFile_;
     balls.record.asked = {options, labels, {}};
     return balls;
 }

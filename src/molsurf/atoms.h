@@ -381,7 +381,8 @@ struct SelectionRecord {
         PlaceOptions places;
     };
 
-    std::string input;           ///< the path of the file, as it was given; empty: there is none
+    std::string input;   ///< the path of the file, as it was given; empty: there is none
+    bool isFile = false; ///< whether that can be read again: no stream, and no text in memory
     std::optional<Asked> asked;  ///< none: the balls are of no file
     std::vector<Excluded> drops; ///< atoms left out of the model, before the assembly is made
     std::size_t beads = 0;       ///< balls that coarse rules made
@@ -497,6 +498,7 @@ private:
     Molecule(std::shared_ptr<const Structure> structure, std::string input);
     std::shared_ptr<const Structure> structure_;
     std::string input_; ///< SelectionRecord::input
+    bool isFile_ = false;
 };
 
 /// Radii of atoms that were not read from a file [Å]: as readAtoms() gives them, but for atoms of

@@ -8,6 +8,7 @@
 #include "molsurf/molecule/structure/text_fields.h"
 #include "molsurf/request/drawn_request.h"
 #include "molsurf/request/format_table.h"
+#include "molsurf/request/identity.h"
 #include "molsurf/request/run_metadata.h"
 #include "molsurf/request/run_outputs.h"
 #include "molsurf/show/io/commit.h"
@@ -242,10 +243,17 @@ void writeRequest(const ShownSurface& shown, Request& request, bool replace)
     if (request.writes(holds::Numbered))
         meshes.bodies = std::make_shared<const Mesh>(shown.surface->pocketBodies);
     const Mesh& mesh = file.mesh();
-    const FileSource source{
-        request, *shown.atoms, *shown.surface,
-        mesh,    meshes,       [&] { return runMetadata(request, shown.surface->report); },
-        nobody};
+    Report report = shown.surface->report;
+    if (request.writes(holds::Numbers | holds::Grids))
+        report.inputSha256 = inputSha256(shown.atoms->record);
+    const FileSource source{request,
+                            *shown.atoms,
+                            *shown.surface,
+                            mesh,
+                            meshes,
+                            report,
+                            [&] { return runMetadata(request, report); },
+                            nobody};
     std::deque<OutputFile> files;
     std::vector<OutputFile*> all;
     const std::vector<Output> outputs = request.outputs;

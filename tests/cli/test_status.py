@@ -89,6 +89,12 @@ class SkipExisting(ToolTest):
         self.assertTrue(self.make(source, *self.WORDS), "a file is of another run")
         self.assertFalse(self.make(source, *self.WORDS))
 
+    def test_files_that_options_name_count_by_their_content(self):
+        words = [CRAMBIN, *FAST, "--groups", "groups.txt", "--color", "group", "-o", "a.ply", "-o", "a.json", "--skip-existing"]
+        for atoms, makes in (("A/1-20", True), ("A/1-20", False), ("A/1-30", True)):
+            (self.folder / "groups.txt").write_text(f"one {atoms}\n")
+            self.assertEqual(self.make(*words), makes, atoms)
+
     def test_a_run_that_did_not_converge_ends_as_before(self):
         words = [CRAMBIN, *FAST, "--flow", "newton", "--max-steps", "1", "-o", "a.ply", "-o", "a.json", "--skip-existing"]
         self.check(3, *words, says="not converged")

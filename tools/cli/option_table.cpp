@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "cli/option_table.h"
 
-#include "sha256.h"
 #include "terminal.h"
 
 #include "molsurf/bricks.h"
@@ -9,6 +8,7 @@
 #include "molsurf/kernel/pipeline/surface_kind.h"
 #include "molsurf/molecule/selection/groups.h"
 #include "molsurf/molecule/structure/load_text.h"
+#include "molsurf/molecule/structure/sha256.h"
 #include "molsurf/request/request_table.h"
 #include "molsurf/request/run_metadata.h"
 #include "molsurf/settings.h"

@@ -483,7 +483,7 @@ const std::vector<Format>& formatTable()
                  writeScript<writePymolScript>, "ply"},
                 {"html", seen, heldByHtml, "page", "", writePage},
                 {"json", all, Numbers | Copies, "report", "",
-                 [](const Writing& w, OutputFile& file) { writeReport(w.result.report, file); }},
+                 [](const Writing& w, OutputFile& file) { writeReport(w.report, file); }},
                 {"png", seen, heldByPng, "picture", "", writePicture},
                 {"mp4", seen, film, "film", "", writeFilm},
                 {"webm", seen, film, "film", "", writeFilm},
@@ -527,7 +527,7 @@ std::string endingsOf(unsigned holds, unsigned verbs, const char* last)
 
 void writeFile(const FileSource& source, const Output& output, OutputFile& file)
 {
-    const auto& [request, atoms, result, all, shown, metadata, progress] = source;
+    const auto& [request, atoms, result, all, shown, report, metadata, progress] = source;
     const Mesh& mesh = shown.crisp && isCrisp(request, output) ? *shown.crisp : all;
     std::optional<Mesh> whole;
     if (atoms.placement.unit && !shown.whole && output.holds(Triangles))
@@ -538,7 +538,7 @@ void writeFile(const FileSource& source, const Output& output, OutputFile& file)
     std::vector<const Mesh*> coarser;
     for (const Mesh& level : shown.coarser) coarser.push_back(&level);
     output.format->write({request, atoms, result, output, progress, mesh, whole ? *whole : mesh,
-                          coarser, shown, metadata},
+                          coarser, shown, report, metadata},
                          file);
 }
 

@@ -55,6 +55,7 @@ struct FileSource {
     const MolecularSurface& result; ///< with a report that is complete but for what writing takes
     const Mesh& mesh;               ///< as files have it: of some walls, at another place
     const ShownMeshes& shown;
+    const Report& report;                       ///< of the result, with what it was made of
     std::function<openvdb::MetaMap()> metadata; ///< of a .vdb
     const Progress& progress;
 };
@@ -70,6 +71,7 @@ struct Writing {
     const Mesh& whole;                ///< by symmetry the mesh of the whole, else the same
     std::vector<const Mesh*> coarser; ///< further levels of detail
     const ShownMeshes& shown;
+    const Report& report;
     const std::function<openvdb::MetaMap()>& metadata;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/files.h"
 
+#include "molsurf/molecule/structure/sha256.h"
 #include "molsurf/surface.h"
 #include "molsurf/surface/drawn_surface.h"
 #include "support/folder.h"
@@ -59,6 +60,20 @@ TEST(Files, PlaceALevelSetInAScene)
         errorOf(ErrorKind::Usage, [&] { writeVdb(made.surface, folder / "c.vdb", true, "maya"); }),
         "expected blender, houdini or usd");
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.vdb", "b.vdb"}));
+}
+
+TEST(Files, HaveTheDigestOfTheInput)
+{
+    const Folder folder;
+    const Colored made;
+    writeSurface({{&made.atoms, &made.surface, &made.options}}, folder / "a.json", {}, false);
+    const std::string digest = sha256OfFile(dataFile("1crn.pdb"));
+    EXPECT_EQ(digest.size(), 64u);
+    EXPECT_HAS(contentOf(folder / "a.json"), "\"input_sha256\": \"" + digest + "\"");
+    BallSet loose = made.atoms;
+    loose.record.isFile = false;
+    writeSurface({{&loose, &made.surface, &made.options}}, folder / "b.json", {}, false);
+    EXPECT_HAS(contentOf(folder / "b.json"), "\"input_sha256\": null");
 }
 
 TEST(Files, DrawASurfaceWithItsLegend)

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "sha256.h"
+#include "molsurf/molecule/structure/sha256.h"
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/transient_error.h"
+#include "molsurf/molecule/structure/archive.h"
 #include "molsurf/molecule/structure/load_text.h"
 
 #include <openssl/evp.h>
 
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
 #include <vector>
 
-namespace molsurf::tool
+namespace molsurf
 {
 
 namespace
@@ -57,4 +59,15 @@ std::string sha256OfText(const std::string& text)
     return sha256(in, "a text");
 }
 
-} // namespace molsurf::tool
+std::string sha256OfInput(const std::string& path, std::size_t maxBytes)
+{
+    std::error_code ignored;
+    try {
+        if (memberOf(path)) return sha256OfText(loadBytes(path, maxBytes));
+        return std::filesystem::is_regular_file(path, ignored) ? sha256OfFile(path) : "";
+    } catch (const Error&) {
+        return "";
+    }
+}
+
+} // namespace molsurf
