@@ -162,7 +162,7 @@ private:
         const PixelLight& here = layer.lights[placeOf(x, y)];
         const Vec3f normal = here.normal();
         if (here.depth == Seen::nothing || style_.sky == 0.0f) return {here.open(), here.lit()};
-        const int step = lightStep(options_), reach = 2 * step;
+        const int step = lightStep(options_, view_), reach = 2 * step;
         const auto firstFrom = [&](int place) {
             return (std::max(place, 0) + step - 1) / step * step;
         };

@@ -116,7 +116,7 @@ Layer Tracer::trace(const Layer* front, const Progress& progress) const
     const auto width = std::size_t(view_.width), height = std::size_t(view_.height);
     // A ray through one sample of four would miss thin bonds; and layers behind need exact depths
     // to begin at, which means have not.
-    const bool sparse = isSparse(options_) && options_.opacity >= 1.0 && !atoms_;
+    const bool sparse = isSparse(options_, view_) && options_.opacity >= 1.0 && !atoms_;
     Layer layer;
     layer.seen.resize(samplesPerPixel * width * height);
     layer.lights.resize(width * height);
@@ -296,7 +296,7 @@ PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const
     // Walls that are seen through let light through: walls behind them have no shadow, and atoms
     // there only that of each other. Bodies have the light of the open.
     if (light.depth == Seen::nothing || isBody || (!isFirst && !isAtom && !isWall)) return light;
-    const int step = lightStep(options_);
+    const int step = lightStep(options_, view_);
     const int left = x - x % step, top = y - y % step;
     const bool asks = (left == x && top == y) || // a thin thing may miss the pixels that ask
                       !layer.seen[placeOf(subpixels * left, subpixels * top)].any();
