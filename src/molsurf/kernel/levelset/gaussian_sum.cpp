@@ -276,20 +276,20 @@ SparseField GaussianSum::searched(const Candidates& leaves, const Progress& prog
     return psi;
 }
 
-void GaussianSum::addBumps(Candidates& leaves) const
+void GaussianSum::addBumps(Candidates& leaves, const Progress& progress) const
 {
-    std::int32_t summed = 0;
+    std::atomic<std::int32_t> summed{0};
     for (const std::int32_t place : leaves.places) summed += place >= 0;
-    for (std::size_t n = 0; n < leaves.table.size(); ++n) {
+    parallelFor(leaves.table.size(), progress, [&](std::size_t n) {
         const Coord& origin = leaves.table.origin(n);
-        if (!bumps_.reach(origin)) continue;
+        if (!bumps_.reach(origin)) return;
         std::int32_t& place = leaves.places[n];
         const bool known = place >= 0;
         if (!known) place = summed++;
         float* values = leaves.sums.leaf(std::size_t(place));
         known ? bumps_.addTo(origin, values) : evaluate(origin, options_.reach, values);
         leaves.inside[n] = ~lessThan(values, 0.0f);
-    }
+    });
 }
 
 SparseField GaussianSum::band(int steps, const Progress& progress, const openvdb::CoordBBox& box,
@@ -298,7 +298,7 @@ SparseField GaussianSum::band(int steps, const Progress& progress, const openvdb
     Candidates leaves = candidates(progress, box);
     if (bumpsFor) {
         bumps_ = bumpsFor(searched(leaves, progress));
-        addBumps(leaves);
+        addBumps(leaves, progress);
     }
     // The inner voxels that have an outer one among their 26 neighbours.
     LeafTable& table = leaves.table;

@@ -179,7 +179,7 @@ private:
     Candidates candidates(const Progress& progress, const openvdb::CoordBBox& box) const;
 
     /// Adds the bumps to the sums; leaves that bounds had decided get a sum if a bump reaches them.
-    void addBumps(Candidates& leaves) const;
+    void addBumps(Candidates& leaves, const Progress& progress) const;
 
     /// psi on the leaves that bounds do not decide. Leaves decided as inside are covered by balls:
     /// in each octant one term without the others has psi > 0.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/kernel/topology/gaps.h"
 
+#include "molsurf/kernel/core/parallel.h"
+
 #include <openvdb/math/Mat3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 
 namespace molsurf
 {
@@ -31,14 +33,13 @@ constexpr double exact = 1e-3;
 /// The bump at a gap with which psi is `least` at it, and within `reach` of it along its thin axis
 /// not of the other sign.
 /// @param[in] solid  whether the gap is closed: psi is positive there
-/// @param[in] psi    with the bumps so far
-Bump bumpAt(const Gap& gap, bool solid, double reach, double rate,
-            const std::function<double(const Vec3d&)>& psi)
+/// @param[in] psi    with the bumps so far at the gap, and `reach` on both sides of it
+Bump bumpAt(const Gap& gap, bool solid, double reach, double rate, const std::array<double, 3>& psi)
 {
     constexpr double least = 0.15;  // psi at the gap
     constexpr double slowest = 0.3; // [1/Å^2]
     // With `side` psi is to be positive in both cases.
-    const double side = solid ? 1.0 : -1.0, here = side * psi(gap.place);
+    const double side = solid ? 1.0 : -1.0, here = side * psi[0];
     // A pocket that closes is to be covered as far as it reaches: psi is 0 at x^2 = -2 here / rise,
     // where the bump falls to 1/e.
     for (int i = 0; i < 3 && here < 0.0; ++i) {
@@ -47,12 +48,9 @@ Bump bumpAt(const Gap& gap, bool solid, double reach, double rate,
     }
     double amplitude = least - here;
     const double thin = solid ? -gap.curvatures[0] : gap.curvatures[2];
-    const Vec3d way = reach * gap.axes[solid ? 0 : 1];
     if (thin > 0.0) {
-        for (const double sign : {-1.0, 1.0}) {
-            const double lacks = least - side * psi(gap.place + sign * way);
-            amplitude = std::max(amplitude, lacks * std::exp(rate * reach * reach));
-        }
+        const double lacks = least - std::min(side * psi[1], side * psi[2]);
+        amplitude = std::max(amplitude, lacks * std::exp(rate * reach * reach));
     }
     return {gap.place, side * rounded(amplitude), rate};
 }
@@ -151,10 +149,18 @@ void holdGaps(const PsiJetAt& jet, const std::vector<Gap>& gaps,
     constexpr double held = 0.7;   // half a gap that voxels hold [voxel]
     constexpr double widest = 0.5; // [Å]
     const double reach = std::min(held * voxelSize, widest), rate = rateFor(voxelSize);
-    const auto psi = [&](const Vec3d& x) { return jet(x).psi + bumps.at(x); };
+    std::vector<std::array<Vec3d, 3>> places(gaps.size());
+    std::vector<std::array<double, 3>> alone(gaps.size()); // psi there, without bumps
+    parallelFor(gaps.size(), Progress(), [&](std::size_t i) {
+        const Vec3d way = reach * gaps[i].axes[decisions[i].closed() ? 0 : 1];
+        places[i] = {gaps[i].place, gaps[i].place - way, gaps[i].place + way};
+        for (std::size_t k = 0; k < 3; ++k) alone[i][k] = jet(places[i][k]).psi;
+    });
     for (int pass = 0; pass < 2; ++pass) { // what is done for one may undo what was for another
         for (std::size_t i = 0; i < gaps.size(); ++i) {
             const bool solid = decisions[i].closed();
+            std::array<double, 3> psi = alone[i];
+            for (std::size_t k = 0; k < 3; ++k) psi[k] += bumps.at(places[i][k]);
             const Bump bump = bumpAt(gaps[i], solid, reach, rate, psi);
             if (bump.amplitude * (solid ? 1.0 : -1.0) > 1e-6) bumps.add(bump);
         }
