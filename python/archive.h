@@ -221,8 +221,8 @@ MOLSURF_MEMBERS(BallNames::Atom, v.name, v.altloc, v.element, v.occupancy)
 MOLSURF_MEMBERS(BallNames, v.residues, v.residueOf, v.atoms)
 MOLSURF_MEMBERS(PointCharge, v.position, v.charge, v.radius, v.atom, v.residue, v.chain, v.number)
 MOLSURF_MEMBERS(PointCharges, v.atoms)
-MOLSURF_MEMBERS(SelectionRecord, v.drops, v.beads, v.beadAtoms, v.radii, v.model, v.membrane,
-                v.warnings)
+MOLSURF_MEMBERS(SelectionRecord, v.input, v.isFile, v.drops, v.beads, v.beadAtoms, v.radii, v.model,
+                v.membrane, v.warnings)
 MOLSURF_MEMBERS(BallSet, v.balls, v.decays, v.resolutions, v.resolutionOf, v.placement, v.labels,
                 v.names, v.charges, v.colors, v.coloring, v.record)
 MOLSURF_MEMBERS(SearchPlaces, v.pocketAt, v.pore, v.tunnelsFrom)

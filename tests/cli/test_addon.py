@@ -57,6 +57,15 @@ class Addon:
         self.assertLessEqual({"mean_curvature", "gaussian_curvature", "atom_id", "Cd"}, set(mesh["attributes"]))
         area = json.loads((self.folder / "a.json").read_text())["surface"]["area"]
         self.assertAlmostEqual(100 * mesh["area"] / area, 1.0, delta=0.05)  # of flat triangles
+        points = result["points"]
+        self.assertEqual(points["vertices"], mesh["vertices"])
+        self.assertEqual([round(x, 4) for x in points["location"]], [1.0, 2.0, 3.0])
+        for a in range(3):
+            self.assertAlmostEqual(points["first"][a], 0.01 * vertices[0][a], places=5)
+        self.assertLess(points["farthest"], 3.5)  # ses: no farther than a radius and a probe
+        self.assertLess(result["dry"]["farthest"], 3.5)
+        self.assertGreaterEqual(round(result["dry"]["least"]), 40)
+        self.assertIn("expected points with atomic_number or vdw_radii", result["no atoms"])
         self.assertLessEqual({"surface", "density"}, set(result["volume"]["grids"]))
         for x in result["volume"]["origin"]:  # until Blender 5.0 a voxel is shown half a voxel farther
             self.assertAlmostEqual(x, -0.05 if result["version"] < 5 else 0.0)

@@ -4,7 +4,7 @@
 View3D > Sidebar > Molecular Surface. scripts/blender/make_addon.sh packs it; Edit > Preferences > Add-ons > Install from
 Disk takes the .zip, as an extension from Blender 4.2 on. The add-on calls the program vdb_molsurf, whose path stands in its preferences, and makes its options of the
 program's own table. A trajectory becomes a mesh a frame, and the object shows that of the scene's frame.
-Tried in Blender 3.4.1, 4.2.23 and 5.0.1.
+Tried in Blender 3.4.1, 4.2.23, 4.5.15 and 5.0.1.
 """
 
 import json
@@ -30,6 +30,10 @@ SECTIONS = ("Atoms", "Surface", "Resolution", "Groups", "Evolution", "Run")  # o
 OURS = ("force", "quiet", "verbose", "no-progress", "config", "instances", "assembly", "color", "frames", "trajectory", "memory",
         "dry-run")  # set here, or of no use here
 FRAMES = "molsurf_frames"
+SYMBOLS = (  # by atomic number
+    "X H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb Mo Tc "
+    "Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au Hg Tl Pb Bi "
+    "Po At Rn Fr Ra Ac Th Pa U").split()
 
 
 class Failed(Exception):
@@ -112,6 +116,59 @@ def mesh_of(path, name, scale):
     return mesh
 
 
+def values_of(mesh, name, kind="value", width=1):
+    """An attribute of the points of a mesh, or None."""
+    if name not in mesh.attributes:
+        return None
+    data = mesh.attributes[name].data
+    flat = np.zeros(width * len(data), dtype="f4")
+    data.foreach_get(kind, flat)
+    return flat.reshape(-1, width) if width > 1 else flat
+
+
+def write_atoms(obj, scale, folder):
+    """Writes the points of an object as atoms: by atomic_number, chain_id, res_id and b_factor, as Molecular Nodes has them,
+    else by vdw_radii. Those that have is_solvent are left out. Returns the path, and the point of each atom."""
+    mesh = obj.data
+    radii, numbers = values_of(mesh, "vdw_radii"), values_of(mesh, "atomic_number")
+    if numbers is None and radii is None:
+        raise Failed(f"{obj.name}: expected points with atomic_number or vdw_radii, as of Molecular Nodes, got none")
+    places = np.zeros(3 * len(mesh.vertices), dtype="f4")
+    mesh.vertices.foreach_get("co", places)
+    places = places.reshape(-1, 3) / scale
+    solvent = values_of(mesh, "is_solvent")
+    kept = np.arange(len(places)) if solvent is None else np.flatnonzero(solvent == 0)
+    if numbers is None:
+        path = folder / "atoms.xyzr"
+        path.write_text("".join("%.4f %.4f %.4f %.4f\n" % (*places[i], radii[i] / scale) for i in kept))
+        return path, kept
+    nothing = np.zeros(len(places))
+    chains, residues, factors = (found if found is not None else nothing
+                                 for found in (values_of(mesh, name) for name in ("chain_id", "res_id", "b_factor")))
+    rows = ["data_atoms\nloop_\n"] + [f"_atom_site.{name}\n" for name in (
+        "group_PDB", "id", "type_symbol", "label_atom_id", "label_comp_id", "label_asym_id", "label_seq_id", "auth_seq_id",
+        "Cartn_x", "Cartn_y", "Cartn_z", "B_iso_or_equiv")]
+    for i in kept:
+        number = int(numbers[i])
+        element = SYMBOLS[number] if 0 < number < len(SYMBOLS) else "X"
+        rows.append("ATOM %d %s %s UNK %d %d %d %.4f %.4f %.4f %.2f\n" % (
+            i + 1, element, element, chains[i], residues[i], residues[i], *places[i], factors[i]))
+    path = folder / "atoms.cif"
+    path.write_text("".join(rows))
+    return path, kept
+
+
+def color_by_atoms(mesh, points, point_of):
+    """Gives each vertex the colour of the point of its atom, the attribute Color of another mesh."""
+    colors = values_of(points, "Color", "color", 4)
+    if colors is None:
+        raise Failed("colour: expected points with the attribute Color, got none [hint: chain, element]")
+    nearest = point_of[values_of(mesh, "atom_id").astype(int)]
+    own = mesh.color_attributes.new("Cd", "FLOAT_COLOR", "POINT")
+    own.data.foreach_set("color", colors[nearest].ravel())
+    mesh.color_attributes.active_color = own
+
+
 def material_of(kind):
     """The material of all surfaces, volumes or copies, made once: "Cd", "fog" or "copy"."""
     name = f"molsurf {kind}"
@@ -148,8 +205,8 @@ class Request:
     """What is asked for, apart from any panel: build() makes objects of it."""
 
     def __init__(self, program, input, show="mesh", color="chain", assembly="", trajectory="", frames="", scale=0.1,
-                 options=None):
-        self.program, self.input, self.show, self.color = program, str(input), show, color
+                 options=None, atoms=None):
+        self.program, self.input, self.show, self.color, self.atoms = program, str(input), show, color, atoms
         self.assembly, self.trajectory, self.frames, self.scale = assembly, str(trajectory or ""), frames, scale
         self.options = dict(options or {})
 
@@ -167,17 +224,26 @@ class Request:
 
     def build(self, collection):
         """Returns the objects and the warnings."""
-        name = pathlib.Path(self.input).name.split(".")[0]
-        with tempfile.TemporaryDirectory() as folder:
-            make = {"mesh": self.meshes, "volume": self.volume, "instances": self.copies}[self.show]
-            return make(name, collection, pathlib.Path(folder))
+        make = {"mesh": self.meshes, "volume": self.volume, "instances": self.copies}[self.show]
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = pathlib.Path(temporary)
+            if not self.atoms:
+                return make(pathlib.Path(self.input).name.split(".")[0], collection, folder)
+            self.input, self.point_of = write_atoms(self.atoms, self.scale, folder)
+            objects, warnings = make(re.sub(r"\W", "_", self.atoms.name), collection, folder)
+            for obj in objects:
+                obj.matrix_world = self.atoms.matrix_world @ obj.matrix_world
+            return objects, warnings
 
     def meshes(self, name, collection, folder):
-        color = ["--color", self.color] if self.color else []
+        by_atoms = self.atoms and self.color == "atoms"
+        color = ["--color", self.color] if self.color and not by_atoms else []
         _, warnings = run_program(self.program, [*self.words(), *color, "-o", f"{name}.ply"], folder)
         paths = sorted(folder.glob(f"{name}*.ply"))
         meshes = [mesh_of(path, path.stem, self.scale) for path in paths]
         for mesh in meshes:
+            if by_atoms:
+                color_by_atoms(mesh, self.atoms.data, self.point_of)
             mesh.materials.append(material_of("Cd"))
         obj = link(name, meshes[0], collection)
         if self.trajectory or self.frames:
@@ -258,10 +324,12 @@ class MOLSURF_Option(bpy.types.PropertyGroup):
 
 class MOLSURF_Settings(bpy.types.PropertyGroup):
     input: bpy.props.StringProperty(name="Structure", subtype="FILE_PATH")
+    atoms: bpy.props.PointerProperty(name="Atoms", type=bpy.types.Object,
+                                     description="Object whose points are atoms, as of Molecular Nodes, instead of a file")
     show: bpy.props.EnumProperty(name="Show", items=[("mesh", "Mesh", "A mesh with attributes and colours"),
                                                      ("volume", "Volume", "Level set and fog"),
                                                      ("instances", "Copies", "One mesh, an object for each copy")])
-    color: bpy.props.StringProperty(name="Colour", default="chain", description="chain, element, residue, mean-curvature, ...")
+    color: bpy.props.StringProperty(name="Colour", default="chain", description="chain, element, residue, mean-curvature, ...; atoms: Color of the points")
     assembly: bpy.props.StringProperty(name="Assembly", description="Name of a biological assembly, as 1")
     trajectory: bpy.props.StringProperty(name="Trajectory", subtype="FILE_PATH")
     frames: bpy.props.StringProperty(name="Frames", description="all, 1-100:5; models without a trajectory")
@@ -304,7 +372,7 @@ class MOLSURF_OT_build(bpy.types.Operator):
         s = context.scene.molsurf
         options = {o.name: o.value if o.word else True for o in s.options if (o.value if o.word else o.on)}
         request = Request(program_of(context), bpy.path.abspath(s.input), s.show, s.color, s.assembly,
-                          bpy.path.abspath(s.trajectory), s.frames, s.scale, options)
+                          bpy.path.abspath(s.trajectory), s.frames, s.scale, options, s.atoms)
         try:
             objects, warnings = request.build(context.collection)
         except Failed as error:
@@ -324,7 +392,7 @@ class MOLSURF_PT_panel(bpy.types.Panel):
 
     def draw(self, context):
         s, layout = context.scene.molsurf, self.layout
-        for name in ("input", "show", "color", "assembly", "trajectory", "frames", "scale"):
+        for name in ("input", "atoms", "show", "color", "assembly", "trajectory", "frames", "scale"):
             layout.prop(s, name)
         layout.operator("molsurf.build")
         if not len(s.options):
