@@ -63,10 +63,10 @@ CommandLine callOf(PlanManifest manifest, const std::string& path, PlanFiles fil
         const Option* option = findOption(BricksPlan, name);
         if (!option || !option->file) continue;
         for (std::string& value : values) {
-            const std::size_t begin = option->file(value);
-            if (begin == std::string::npos) continue;
-            read.push_back(resolved(value.substr(begin)));
-            value.replace(begin, std::string::npos, read.back());
+            const auto place = option->file(value);
+            if (!place) continue;
+            read.push_back(resolved(place->in(value)));
+            value.replace(place->begin, place->count, read.back());
         }
     }
     for (const std::string& file : read)

@@ -59,11 +59,10 @@ GivenOptions planned(const CommandLine& call)
         const Option* option = findOption(BricksPlan, name);
         if (!option || !option->get) continue;
         std::vector<std::string>& kept = options[name]; // of a switch it is empty
-        for (const std::string& value : values) {
-            const std::size_t begin = option->file ? option->file(value) : std::string::npos;
-            kept.push_back(begin == std::string::npos
-                               ? value
-                               : value.substr(0, begin) + fromPlan(call, value.substr(begin)));
+        for (std::string value : values) {
+            const auto path = option->file ? option->file(value) : std::nullopt;
+            if (path) value.replace(path->begin, path->count, fromPlan(call, path->in(value)));
+            kept.push_back(std::move(value));
         }
     }
     return options;

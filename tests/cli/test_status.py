@@ -94,6 +94,10 @@ class SkipExisting(ToolTest):
         for atoms, makes in (("A/1-20", True), ("A/1-20", False), ("A/1-30", True)):
             (self.folder / "groups.txt").write_text(f"one {atoms}\n")
             self.assertEqual(self.make(*words), makes, atoms)
+        words = [CRAMBIN, "--voxel", "1", "--patches", "table=values.csv>4", "--areas", "patches", "-o", "b.json", "--skip-existing"]
+        for value, makes in ((5, True), (5, False), (6, True)):
+            (self.folder / "values.csv").write_text("".join(f"A,{n},{value if n < 20 else 1}\n" for n in range(1, 47)))
+            self.assertEqual(self.make(*words), makes, value)
 
     def test_a_run_that_did_not_converge_ends_as_before(self):
         words = [CRAMBIN, *FAST, "--flow", "newton", "--max-steps", "1", "-o", "a.ply", "-o", "a.json", "--skip-existing"]

@@ -536,7 +536,8 @@ Option panelOption()
          "files and kinds side by side or in turn; repeats"},
         [](CommandLine& call, const std::string& value) { call.panels.push_back(panelOf(value)); });
     panel.file = [](const std::string& value) {
-        return directionOf(value) || surfaceKindOf(value) ? std::string::npos : std::size_t(0);
+        return directionOf(value) || surfaceKindOf(value) ? std::nullopt
+                                                          : std::optional(PathPlace());
     };
     return of(Build, shownIn(Pixels | ColorChoices, panel));
 }
@@ -752,10 +753,8 @@ std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given)
     for (const auto& [name, values] : given) {
         const Option* option = findOption(verb, name);
         if (!option || !option->file) continue;
-        for (const std::string& value : values) {
-            const std::size_t begin = option->file(value);
-            if (begin != std::string::npos) files.push_back({option, value.substr(begin)});
-        }
+        for (const std::string& value : values)
+            if (const auto path = option->file(value)) files.push_back({option, path->in(value)});
     }
     return files;
 }

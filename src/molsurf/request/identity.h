@@ -8,7 +8,6 @@
 #include "molsurf/atoms.h"
 #include "molsurf/settings.h"
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -28,10 +27,9 @@ template<typename To>
 GivenOption givenOption(const OptionRow<To>& row, const std::vector<std::string>& values)
 {
     GivenOption given{row.name, values, {}};
-    for (const std::string& value : values) {
-        const std::size_t begin = row.get && row.file ? row.file(value) : std::string::npos;
-        if (begin != std::string::npos) given.files.push_back(value.substr(begin));
-    }
+    if (!row.get || !row.file) return given;
+    for (const std::string& value : values)
+        if (const auto path = row.file(value)) given.files.push_back(path->in(value));
     return given;
 }
 

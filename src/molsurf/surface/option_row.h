@@ -120,7 +120,7 @@ Row with(Row row, const Change& change)
 template<typename Row>
 Row ofFile(Row row)
 {
-    row.file = [](const std::string&) { return std::size_t(0); };
+    row.file = [](const std::string&) { return PathPlace(); };
     return row;
 }
 

@@ -58,7 +58,7 @@ PictureSetting viewSetting()
                        values.back());
     };
     row.file = [](const std::string& value) {
-        return isViewName(value) ? std::size_t(0) : std::string::npos;
+        return isViewName(value) ? std::optional(PathPlace()) : std::nullopt;
     };
     return shownIn(holds::Views, row);
 }

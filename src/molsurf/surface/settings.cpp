@@ -270,7 +270,7 @@ std::vector<Setting> atomSettings()
                   of(&SelectOptions::radii)),
              [](Setting& row) {
                  row.file = [](const std::string& value) {
-                     return isRadiiSet(value) ? std::string::npos : 0;
+                     return isRadiiSet(value) ? std::nullopt : std::optional(PathPlace());
                  };
              }),
         maxInput};
@@ -484,6 +484,14 @@ Values colorFiles()
     return starts;
 }
 
+/// The path in a value behind one of some words.
+std::optional<PathPlace> pathBehind(const Values& words, const std::string& value)
+{
+    for (const std::string& word : words)
+        if (lowered(value).rfind(word, 0) == 0) return PathPlace{word.size()};
+    return std::nullopt;
+}
+
 Values colorWords()
 {
     Values words;
@@ -572,9 +580,7 @@ Setting colorSetting()
     color.file = [](const std::string& value) {
         Values starts = colorFiles();
         starts.push_back(groupsStart);
-        for (const std::string& start : starts)
-            if (lowered(value).rfind(start, 0) == 0) return start.size();
-        return std::string::npos;
+        return pathBehind(starts, value);
     };
     return color;
 }
@@ -624,6 +630,11 @@ Setting patchSetting()
         if (!rule) return "none";
         return (s.labels.patchBy ? textOf(*s.labels.patchBy) : nameOf(rule->by)) +
                (rule->above ? ">" : "<") + shortest(rule->level);
+    };
+    row.file = [](const std::string& value) {
+        std::optional<PathPlace> path = pathBehind(colorFiles(), value);
+        if (path) path->count = value.find_last_of("<>") - path->begin;
+        return path;
     };
     for (const std::string& word : patchWords()) row.words.push_back(word + ">");
     row.of = SettingOf::Molecule;
