@@ -28,8 +28,8 @@ constexpr int subpixels = 2; ///< a pixel is the mean of 2 x 2 samples
 constexpr std::size_t samplesPerPixel = std::size_t(subpixels * subpixels);
 
 /// Whether there are fewer rays than samples: more are not seen in wide pictures, nor where pixels
-/// are small beside an atom. At 0.25 Å the means of such pictures differ by 1.6 of 255, at 0.14 Å by
-/// 1.3 (4AT1 by chain at 500 and 800 pixels).
+/// are small beside an atom. At 0.25 Å the means of such pictures differ by 1.6 of 255, at 0.14 Å
+/// by 1.3 (4AT1 by chain at 500 and 800 pixels).
 inline bool isSparse(const DrawOptions& options, const View& view)
 {
     constexpr int widestDense = 1000;    // [pixel]
