@@ -30,7 +30,7 @@ bool encodePng(const Picture& picture, const std::vector<std::uint8_t>& pixels, 
 {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_write_fn(png, &bytes, appendBytes, flushNothing);
-    png_set_compression_level(png, 6);
+    png_set_compression_level(png, 5); // 0.6 of the time of 6, for 2 % more bytes
     png_set_IHDR(png, info, png_uint_32(picture.width), png_uint_32(picture.height), 8,
                  picture.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
