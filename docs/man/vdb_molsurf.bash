@@ -8,7 +8,7 @@ _vdb_molsurf()
         help|build|batch|compare|convert|bricks|info) verb=${COMP_WORDS[1]} ;;
     esac
     case $verb:$before in
-        "build":--format) words="vdb ply obj stl vtk glb 3mf vert face poly msh off wrl msh2 nvdb mrc dx density.mrc mask.mrc dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png legend.svg view atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv patches.csv pore.csv tunnels.csv forces.csv pore.svg pore.png tunnels.pdb tunnels.cif tunnels.cxc tunnels.pml pdb cif residues.pdb residues.cif pockets.ply pockets.obj pockets.stl pockets.off pockets.wrl pockets.vtk pockets.glb pockets.3mf pore.ply pore.obj pore.stl pore.off pore.wrl pore.vtk pore.glb pore.3mf tunnels.ply tunnels.obj tunnels.stl tunnels.off tunnels.wrl tunnels.vtk tunnels.glb tunnels.3mf" ;;
+        "build":--format) words="vdb ply obj stl vtk glb 3mf vert face poly msh off wrl msh2 nvdb mrc dx density.mrc mask.mrc dielx.dx diely.dx dielz.dx kappa.dx charges.pqr apbs.in cxc pml html json png legend.svg view atoms.csv residues.csv contacts.csv interfaces.csv pockets.csv patches.csv pore.csv tunnels.csv forces.csv pore.svg pore.png tunnels.pdb tunnels.cif tunnels.cxc tunnels.pml pdb cif residues.pdb residues.cif patches.pdb patches.cif pockets.ply pockets.obj pockets.stl pockets.off pockets.wrl pockets.vtk pockets.glb pockets.3mf pore.ply pore.obj pore.stl pore.off pore.wrl pore.vtk pore.glb pore.3mf tunnels.ply tunnels.obj tunnels.stl tunnels.off tunnels.wrl tunnels.vtk tunnels.glb tunnels.3mf" ;;
         "build":--superpose) words="auto" ;;
         "build":--surface) words="variational ses sas vdw gaussian smooth-sas" ;;
         "build":--pieces) words="all outer cavities" ;;

@@ -107,6 +107,21 @@ class Patches(ToolTest):
         for column in zip(*areas):
             self.assertLess(max(column) - min(column), 0.01 * max(column), column)
 
+    def test_residues_have_their_areas_in_patches_as_b_factors(self):
+        self.check(0, CRAMBIN, *FAST, "--patches", "hydrophobicity>0", "-o", "b.patches.csv", "-o", "b.patches.pdb", "-o", "b.patches.cif")
+        of_residue = {}
+        for line in (self.folder / "b.patches.pdb").read_text().splitlines():
+            if line.startswith("ATOM"):
+                of_residue.setdefault(line[21:27], set()).add(float(line[60:66]))
+        self.assertTrue(all(len(areas) == 1 for areas in of_residue.values()))
+        rows = self.table("b.patches.csv")
+        whole = sum(float(row["area"]) for row in rows)
+        self.assertAlmostEqual(sum(sum(areas) for areas in of_residue.values()), whole, delta=0.005 * len(of_residue))
+        named = {name[1:] for row in rows for name in row["residues"].split()}
+        bare = [place for place, areas in of_residue.items() if areas == {0.0}]
+        self.assertFalse([place for place in bare if place[1:].strip() in named])
+        self.assertIn("_atom_site.B_iso_or_equiv", (self.folder / "b.patches.cif").read_text())
+
     def test_colours_name_the_largest(self):
         self.check(0, CRAMBIN, *FAST, "--patches", "hydrophobicity>0", "--color", "patch", "-o", "c.ply", "-o", "c.legend.svg", "-o",
                    "c.patches.csv", says="patches: ")
@@ -126,7 +141,7 @@ class Patches(ToolTest):
             self.check(2, CRAMBIN, *FAST, *words, "-o", "d.ply", says=says)
         self.check(2, CRAMBIN, *FAST, "-o", "d.patches.csv", says="--patches")
         self.check(1, CRAMBIN, *FAST, "--patches", "charge>0", "-o", "d.patches.csv", says="no charges")
-        self.check(0, CRAMBIN, *FAST, "--patches", "hydrophobicity>0", "-o", "d.ply", says="--patches is for .patches.csv")
+        self.check(0, CRAMBIN, *FAST, "--patches", "hydrophobicity>0", "-o", "d.ply", says="--patches is for .patches.csv, .patches.pdb")
 
 
 if __name__ == "__main__":

@@ -114,7 +114,7 @@ std::vector<Pair> areaPairs()
             {"patches",
              IsFor,
              {{Areas, "patches"}, "areas=patches", "color=patch"},
-             ".patches.csv, --areas patches and --color patch"},
+             ".patches.csv, .patches.pdb, --areas patches and --color patch"},
             {"patches", Excludes, {"split", "surface-of", "memory"}, ": they are of one mesh"},
             areasWithout("coarse", " [hint: a run without --coarse]"),
             areasWithout("split", " [hint: --interfaces has the areas of groups alone]"),

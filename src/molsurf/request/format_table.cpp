@@ -361,6 +361,16 @@ void writeAtoms(const Writing& w, OutputFile& file)
     write(w.atoms, ofResidues ? residueAreasOfBalls(w.atoms, own) : own, w.request.origin(), file);
 }
 
+/// Writes atoms with the areas of their residues in patches as B factors.
+template<void write(const BallSet&, const std::vector<double>&, const openvdb::Vec3d&, OutputFile&)>
+void writePatchAtoms(const Writing& w, OutputFile& file)
+{
+    std::vector<double> areas(w.atoms.names->residueOf.size());
+    for (const Report::Patches::Patch& patch : w.result.report.patches->list)
+        for (const auto& part : patch.parts) areas[part.ball] += part.area;
+    write(w.atoms, residueAreasOfBalls(w.atoms, areas), w.request.origin(), file);
+}
+
 } // namespace
 
 namespace
@@ -398,7 +408,9 @@ std::vector<Format> areaFormats()
         {"pdb", built, Areas, withAreas, "atoms", writeAtoms<writePdb>},
         {"cif", built, Areas, withAreas, "atoms", writeAtoms<writeMmcif>},
         {"residues.pdb", built, Areas, withAreas, "residues", writeAtoms<writePdb>},
-        {"residues.cif", built, Areas, withAreas, "residues", writeAtoms<writeMmcif>}};
+        {"residues.cif", built, Areas, withAreas, "residues", writeAtoms<writeMmcif>},
+        {"patches.pdb", built, Areas, "", "patches", writePatchAtoms<writePdb>},
+        {"patches.cif", built, Areas, "", "patches", writePatchAtoms<writeMmcif>}};
 }
 
 /// A product that has a mesh of its own.

@@ -622,7 +622,7 @@ Setting patchSetting()
     Setting row{"patches", SettingType::Text, "VALUE>T",
                 "connected pieces of the surface where a value of `color`,\n"
                 "as hydrophobicity or mean-curvature, is above T, or by <\n"
-                "below it: for .patches.csv and `color` patch",
+                "below it: for .patches.csv, .patches.pdb and `color` patch",
                 "none"};
     row.set = setPatches;
     row.get = [](const Settings& s) -> std::string {
