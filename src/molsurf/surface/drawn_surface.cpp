@@ -69,10 +69,11 @@ DrawOptions pictureOf(const DrawnSurface& surface, const Progress& progress)
     options.instances =
         instancesOf(atoms, surface.mesh, surface.colorsCopies, options.plain, progress);
     constexpr std::size_t enough = 300; // balls of a prototype
-    for (const MeshInstance& copy : options.instances) {
-        const auto [begin, end] = atoms.prototype(copy.part);
+    for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
+        const auto [begin, end] = atoms.prototype(p);
+        std::vector<openvdb::Vec3d>& some = options.aboutParts.emplace_back();
         for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
-            options.about.push_back(copy.placed(openvdb::Vec3d(atoms.balls[i].center)));
+            some.emplace_back(atoms.balls[i].center);
     }
     return options;
 }

@@ -4,6 +4,7 @@
 /// @file
 /// Atoms as balls, sticks and tubes, to be seen beside a surface.
 
+#include "molsurf/analysis/proximity/ray_scene.h"
 #include "molsurf/atoms.h"
 #include "molsurf/kernel/mesh/mesh_instance.h"
 #include "molsurf/mesh.h"
@@ -26,18 +27,24 @@ struct Bodies {
     std::vector<LegendEntry> pockets, tunnels;
 };
 
-/// Balls, sticks and tubes: copies of parts of a mesh, which may be stretched.
+/// Balls, sticks and tubes, as meshes with colours, that copies repeat together.
+struct AtomUnit : RayUnit {
+    std::vector<Color> ballColors, stickColors; ///< one each
+};
+
+/// Atoms that are seen beside a surface. What the copies of an assembly have is held once.
 struct AtomModel {
-    Mesh mesh; ///< a ball and a stick of radius 1, and the tubes as they are
-    std::vector<MeshInstance> instances;
+    std::vector<AtomUnit> units;      ///< none of them empty
+    std::vector<MeshInstance> copies; ///< of units
     std::vector<LegendEntry> chains, elements; ///< of tubes, and of balls and sticks
-    Bodies bodies; ///< with a mesh if they let light through; else `mesh` has it
+    Bodies bodies; ///< with a mesh if they let light through; else it is a unit
 };
 
 /// A way to show atoms.
 struct AtomStyle {
     const char* word; ///< of the command line
     const char* help;
+    /// Adds to the last unit, and to the legends.
     void (*add)(const ShownAtoms& shown, const Progress& progress, AtomModel& model);
     /// About what the atoms take while they are drawn [byte].
     double (*bytesOf)(const BallSet& atoms);
