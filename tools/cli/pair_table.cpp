@@ -53,6 +53,8 @@ std::vector<Pair> assemblyPairs()
             {"weld", Excludes, {"sharp-colors"}},
             {"lod", Needs, {"instances", "by-symmetry"}},
             {"pieces", Excludes, {"by-symmetry", "instances", "memory", "lod"}},
+            {"show=others", Needs, {"copies"}, " [hint: --copies fold:5, for example]"},
+            {"show=others", Excludes, {"frames", "trajectory"}},
             {"lod", Excludes, {"voxel"}, ": the first of --lod is the voxel"},
             {"instances",
              Excludes,

@@ -5,6 +5,7 @@
 #include "molsurf/kernel/balls/ball_index.h"
 #include "molsurf/kernel/core/orthonormal_basis.h"
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/selection/groups.h"
 #include "molsurf/molecule/selection/subset.h"
 #include "molsurf/molecule/structure/element.h"
 #include "molsurf/molecule/structure/residue_bonds.h"
@@ -472,6 +473,24 @@ std::string styleMeant(const std::string& text, const std::string& word, const V
     return bare ? " [hint: `show` " + inQuotes(text + "=sticks") + "]" : near;
 }
 
+/// Takes a word behind that of a style.
+void takeAddition(const std::string& word, const std::string& text, ShowRule& rule)
+{
+    const std::pair<const char*, bool ShowRule::*> switches[] = {{"golden", &ShowRule::golden},
+                                                                 {"others", &ShowRule::others}};
+    for (const auto& [name, member] : switches)
+        if (word == name) {
+            rule.*member = true;
+            return;
+        }
+    rule.color = parseColor(word);
+    if (!rule.color)
+        throw Error(ErrorKind::Usage, "`show`: expected golden, others or a colour behind " +
+                                          std::string(rule.style->word) + ", got " +
+                                          inQuotes(word) + " in " + inQuotes(text) +
+                                          didYouMean(word, {"golden", "others"}, {}));
+}
+
 } // namespace
 
 ShowRule parseShow(const std::string& text, const std::vector<std::string>& others)
@@ -479,12 +498,9 @@ ShowRule parseShow(const std::string& text, const std::vector<std::string>& othe
     const std::size_t equals = text.rfind('=');
     const bool named = equals != std::string::npos;
     ShowRule rule{named ? text.substr(0, equals) : "", nullptr};
-    std::string word = lowered(named ? text.substr(equals + 1) : text);
-    constexpr std::string_view golden = ",golden";
-    rule.golden = word.size() > golden.size() &&
-                  word.compare(word.size() - golden.size(), golden.size(), golden) == 0;
-    if (rule.golden) word.resize(word.size() - golden.size());
-    std::vector<std::string> words;
+    const std::string tail = lowered(named ? text.substr(equals + 1) : text);
+    const std::string word = tail.substr(0, tail.find(','));
+    Values words;
     for (const AtomStyle& style : atomStyles()) {
         if (word == style.word) rule.style = &style;
         words.push_back(style.word);
@@ -493,6 +509,11 @@ ShowRule parseShow(const std::string& text, const std::vector<std::string>& othe
         throw Error(ErrorKind::Usage, "`show`: expected " + joinWords(words, ", ") +
                                           ", or SELECTION= and one of them, got " + inQuotes(text) +
                                           styleMeant(text, word, named ? Values() : others, words));
+    for (std::size_t end = word.size(); end < tail.size();) {
+        const std::size_t begin = end + 1;
+        end = std::min(tail.find(',', begin), tail.size());
+        takeAddition(tail.substr(begin, end - begin), text, rule);
+    }
     return rule;
 }
 
@@ -549,8 +570,11 @@ void addAtoms(const ShownAtoms& some, const Progress& progress, AtomModel& model
     for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
         const ShownAtoms part{prototypeOf(atoms, p), some.rule, some.bonds, some.byChain};
         std::vector<MeshInstance> copies;
-        for (const Instance& copy : atoms.placement.instances)
-            if (copy.part == p) copies.push_back({copy, p, "", white});
+        for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
+            const Instance& copy = atoms.placement.instances[i];
+            const Color& color = some.copyColors.empty() ? white : some.copyColors[i];
+            if (copy.part == p) copies.push_back({copy, p, "", color});
+        }
         addUnit(part, copies, progress, model);
     }
 }

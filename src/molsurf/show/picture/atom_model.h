@@ -12,6 +12,7 @@
 #include "molsurf/show/color/legend.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,9 +59,13 @@ struct ShowRule {
     std::string select; ///< as SelectOptions::select; empty: all
     const AtomStyle* style = nullptr;
     bool golden = false; ///< whether carbon is golden where there are several chains, too
+    bool others = false; ///< whether the atoms are of the copies that the surface leaves out; they
+                         ///< have its colours
+    std::optional<Color> color{}; ///< of all atoms; none: as they are
 };
 
-/// "sticks", or "(HEM)=sticks" for some of the atoms; "sticks,golden" with golden carbon.
+/// "sticks", or "(HEM)=sticks" for some of the atoms; behind commas "golden", "others" or a colour,
+/// as ShowRule has them.
 /// @param[in] others  further words that an option takes, for the hint of an error
 /// @throws Error(ErrorKind::Usage) if it is neither
 ShowRule parseShow(const std::string& text, const std::vector<std::string>& others = {});
@@ -71,13 +76,15 @@ struct ShownAtoms {
     ShowRule rule;
     std::shared_ptr<const FileBonds> bonds{}; ///< that their file gives; null: none
     bool byChain = false;                     ///< whether carbon has the colour of its chain
+    std::vector<Color> copyColors{}; ///< of the assembly's copies, which multiply others; none: as
+                                     ///< they are
 };
 
 /// About what the model of these atoms takes while it is drawn [byte].
 double bytesOfModel(const std::vector<ShownAtoms>& shown);
 
-/// Carbon is golden or has the colour of its chain, other elements have their colours (CPK), tubes
-/// that of their chain.
+/// Atoms have their BallSet::colors. Without any carbon is golden or has the colour of its chain,
+/// other elements have their colours (CPK), tubes that of their chain.
 /// @throws Error(ErrorKind::Input) if a rule has nothing to show, as a tube without a backbone
 AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progress);
 
