@@ -9,6 +9,7 @@
 #include "molsurf/show/picture/draw_legend.h"
 #include "molsurf/show/picture/panels.h"
 #include "molsurf/show/picture/view.h"
+#include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
 #include <map>
@@ -45,9 +46,11 @@ std::vector<MeshInstance> instancesOf(const BallSet& atoms, const Mesh& mesh, bo
     std::vector<MeshInstance> out;
     for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
         const Instance& copy = atoms.placement.instances[i];
-        out.push_back({copy, copy.part,
-                       "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
-                       colors.empty() ? one : colors[i]});
+        const std::string name = "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name);
+        const std::vector<std::size_t> parts = partsOfCopy(atoms.placement, mesh, copy);
+        for (const std::size_t part : parts)
+            out.push_back({copy, part, parts.size() > 1 ? name + " " + mesh.parts[part].name : name,
+                           colors.empty() ? one : colors[i]});
     }
     return out;
 }
@@ -75,6 +78,8 @@ DrawOptions pictureOf(const DrawnSurface& surface, const Progress& progress)
         for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
             some.emplace_back(atoms.balls[i].center);
     }
+    if (options.aboutParts.size() < surface.mesh.parts.size()) // several repeat with a copy
+        options.aboutParts.resize(surface.mesh.parts.size());
     return options;
 }
 

@@ -234,10 +234,10 @@ TEST(AtomModel, TellsWhatItTakes)
         const ShownAtoms shown{atoms, {"", &style}};
         const AtomModel model = atomModel({shown}, Progress());
         const AtomUnit& unit = model.units[0];
-        const double held =
-            double(unit.mesh.positions.size() * (2 * sizeof(Vec3f) + 3) +
-                   unit.mesh.triangles.size() * 12 + unit.balls.size() * (sizeof(openvdb::Vec4f) + 3) +
-                   unit.sticks.size() * (2 * sizeof(openvdb::Vec4f) + 3));
+        const double held = double(unit.mesh.positions.size() * (2 * sizeof(Vec3f) + 3) +
+                                   unit.mesh.triangles.size() * 12 +
+                                   unit.balls.size() * (sizeof(openvdb::Vec4f) + 3) +
+                                   unit.sticks.size() * (2 * sizeof(openvdb::Vec4f) + 3));
         EXPECT_GT(bytesOfModel({shown}), held) << style.word;
         EXPECT_LT(bytesOfModel({shown}), 20.0 * held) << style.word;
     }
@@ -291,10 +291,12 @@ TEST(AtomModel, PrototypesAreApart)
     atoms.placement.instances = {{Motion::identity(), 1, "1"}, {Motion::identity(), 0, "2"}};
     const AtomModel model = modelOf(atoms, "sticks");
     ASSERT_EQ(model.units.size(), 2u);
+    EXPECT_EQ(model.copies.size(), 2u);
     EXPECT_EQ(partsOf(model), (std::array<int, 3>{2, 0, 0}));
     for (const MeshInstance& copy : model.copies)
-        EXPECT_NEAR((centerOf(model.units[copy.part].balls[0]) - atoms.balls[copy.part].center).length(),
-                    0.0, 1e-5);
+        EXPECT_NEAR(
+            (centerOf(model.units[copy.part].balls[0]) - atoms.balls[copy.part].center).length(),
+            0.0, 1e-5);
 }
 
 // Atoms with colours of their own keep them, also along a tube.

@@ -86,8 +86,7 @@ RTCScene RayScene::sceneOf(const std::function<void(RTCScene)>& attach)
 RTCScene RayScene::sceneOf(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles,
                            std::size_t first, std::size_t end)
 {
-    return sceneOf(
-        [&](RTCScene scene) { addTriangles(positions, triangles, first, end, scene); });
+    return sceneOf([&](RTCScene scene) { addTriangles(positions, triangles, first, end, scene); });
 }
 
 void RayScene::addTriangles(const std::vector<openvdb::Vec3f>& positions,

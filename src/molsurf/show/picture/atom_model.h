@@ -35,8 +35,8 @@ struct AtomUnit : RayUnit {
 
 /// Atoms that are seen beside a surface. What the copies of an assembly have is held once.
 struct AtomModel {
-    std::vector<AtomUnit> units;      ///< none of them empty
-    std::vector<MeshInstance> copies; ///< of units
+    std::vector<AtomUnit> units;               ///< none of them empty
+    std::vector<MeshInstance> copies;          ///< of units
     std::vector<LegendEntry> chains, elements; ///< of tubes, and of balls and sticks
     Bodies bodies; ///< with a mesh if they let light through; else it is a unit
 };

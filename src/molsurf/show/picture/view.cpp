@@ -82,10 +82,11 @@ std::vector<Extent> outermost(const std::vector<Extent>& all)
     for (int k = 0; k < manyDirections; ++k) {
         const Vec3d way(spiralWay(k, manyDirections));
         const auto reach = [&](const Extent& x) { return x.center.dot(way) + x.radius; };
-        far.push_back(std::size_t(
-            std::max_element(all.begin(), all.end(),
-                             [&](const Extent& a, const Extent& b) { return reach(a) < reach(b); }) -
-            all.begin()));
+        far.push_back(std::size_t(std::max_element(all.begin(), all.end(),
+                                                   [&](const Extent& a, const Extent& b) {
+                                                       return reach(a) < reach(b);
+                                                   }) -
+                                  all.begin()));
     }
     std::sort(far.begin(), far.end());
     far.erase(std::unique(far.begin(), far.end()), far.end());
@@ -138,9 +139,7 @@ Points aboutOf(const Span& span, const DrawOptions& options)
 {
     if (!options.about.empty()) return pointsOf(options.about);
     if (options.aboutParts.empty())
-        return [&span](const auto& f) {
-            span.forEach([&](const Vec3d& x, double) { f(x); });
-        };
+        return [&span](const auto& f) { span.forEach([&](const Vec3d& x, double) { f(x); }); };
     return [&options](const auto& f) {
         for (const MeshInstance& copy : options.instances)
             for (const Vec3d& x : options.aboutParts[copy.part]) f(copy.placed(x));

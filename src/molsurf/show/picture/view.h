@@ -35,7 +35,7 @@ std::optional<double> clipBefore(const Mesh& mesh, const View& view, const DrawO
 /// @param[in] setOf   gives set i; the view is that of the first, and all are in the frame
 /// @param[in] margin  about the points [Å]
 void keepView(std::size_t count,
-              const std::function<std::vector<openvdb::Vec3d>(std::size_t i)>& setOf,
-              double margin, DrawOptions& options);
+              const std::function<std::vector<openvdb::Vec3d>(std::size_t i)>& setOf, double margin,
+              DrawOptions& options);
 
 } // namespace molsurf
