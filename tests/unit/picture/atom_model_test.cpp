@@ -372,7 +372,7 @@ TEST(AtomModel, CopiesAreSeenWhereTheyLie)
     double blue = 0.0;
     for (std::size_t n = 0; n < picture.rgb.size(); n += 3)
         blue += Color{picture.rgb[n], picture.rgb[n + 1], picture.rgb[n + 2]} == Color{48, 80, 248};
-    EXPECT_NEAR(blue * 0.08 * 0.08, M_PI * 4.0, 0.6); // area [Å^2] without its rim
+    EXPECT_NEAR(blue * 0.08 * 0.08, M_PI * 4.0, 1.0); // area [Å^2] without its rim
     options.frame.reset();
     const Picture all = drawMesh(box(4.0f), options, Progress());
     EXPECT_NEAR(double(all.height) / all.width, (22.0 + 4.0) / 8.0, 0.05);

@@ -410,24 +410,26 @@ void addTubes(const ShownAtoms& shown, const Progress& progress, AtomModel& mode
     end();
 }
 
-// Measured on 4V5A (289,001 atoms of polymers), with what Embree takes.
-constexpr double bytesPerCopy = 1300.0, bytesPerBackboneAtom = 50e3;
-constexpr double copiesPerBondedAtom = 3.1;
+// Measured, with what Embree takes, on 289,001 atoms: vdb_molsurf 4v5a.cif.gz --voxel 2
+// --select "chain AA and resid 1-9" --show polymer=spheres, sticks, orders, tube; and on 10^5
+// copies.
+constexpr double bytesPerBall = 150.0, bytesPerBondedAtom = 400.0, bytesPerCopy = 1300.0;
+constexpr double bytesPerBackboneAtom = 50e3;
 
 double bytesOfBonded(const BallSet& atoms)
 {
-    return bytesPerCopy * copiesPerBondedAtom * double(atoms.balls.size());
+    return bytesPerBondedAtom * double(atoms.balls.size());
 }
 
 double bytesOfOrders(const BallSet& atoms)
 {
-    constexpr double more = 2.5; // of all bonds double or aromatic
+    constexpr double more = 2.0; // of all bonds double or aromatic
     return more * bytesOfBonded(atoms);
 }
 
 double bytesOfSpheres(const BallSet& atoms)
 {
-    return bytesPerCopy * double(atoms.balls.size());
+    return bytesPerBall * double(atoms.balls.size());
 }
 
 double bytesOfTubes(const BallSet& atoms)
