@@ -63,7 +63,8 @@ BallSet shownBalls(const Structure& structure, const CommandLine& call,
     }
     BallSet others = selectBalls(structure, ofOtherCopies(options, rule.select),
                                  labelsOfOthers(call.labels), probeOf(call.options), progress);
-    colorLikeSurface(surface, call.options.color, call.picture.plain, progress, others);
+    const Color plain = rule.byCopy ? Color{255, 255, 255} : call.picture.plain;
+    colorLikeSurface(surface, call.options.color, plain, progress, others);
     return others;
 }
 
@@ -105,7 +106,8 @@ DescribedBalls readBalls(const std::string& path, const CommandLine& call, Termi
     };
     std::vector<ShowRule> rules;
     std::vector<BallSet> shown, others;
-    for (const ShowRule& rule : call.shows) {
+    for (ShowRule rule : call.shows) {
+        rule.byCopy = rule.others && !rule.color && call.colorsCopies();
         const bool there = isThere(other, [&] {
             shown.push_back(shownBalls(structure, call, options, rule, balls, terminal));
         });

@@ -568,12 +568,14 @@ void addAtoms(const ShownAtoms& some, const Progress& progress, AtomModel& model
     const BallSet& atoms = some.atoms;
     if (atoms.placement.isWhole())
         return addUnit(some, {{Motion::identity(), 0, "", white}}, progress, model);
+    const std::vector<Color> colors =
+        some.rule.byCopy ? instanceColors(atoms, progress) : std::vector<Color>();
     for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
         const ShownAtoms part{prototypeOf(atoms, p), some.rule, some.bonds, some.byChain};
         std::vector<MeshInstance> copies;
         for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
             const Instance& copy = atoms.placement.instances[i];
-            const Color& color = some.copyColors.empty() ? white : some.copyColors[i];
+            const Color& color = colors.empty() ? white : colors[i];
             if (copy.part == p) copies.push_back({copy, p, "", color});
         }
         addUnit(part, copies, progress, model);

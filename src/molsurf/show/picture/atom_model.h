@@ -62,6 +62,8 @@ struct ShowRule {
     bool others = false; ///< whether the atoms are of the copies that the surface leaves out; they
                          ///< have its colours
     std::optional<Color> color{}; ///< of all atoms; none: as they are
+    bool byCopy = false; ///< whether the copies of an assembly have colours of their own, which
+                         ///< multiply those of the atoms
 };
 
 /// "sticks", or "(HEM)=sticks" for some of the atoms; behind commas "golden", "others" or a colour,
@@ -76,8 +78,6 @@ struct ShownAtoms {
     ShowRule rule;
     std::shared_ptr<const FileBonds> bonds{}; ///< that their file gives; null: none
     bool byChain = false;                     ///< whether carbon has the colour of its chain
-    std::vector<Color> copyColors{}; ///< of the assembly's copies, which multiply others; none: as
-                                     ///< they are
 };
 
 /// About what the model of these atoms takes while it is drawn [byte].
