@@ -127,6 +127,12 @@ TEST(UnitParts, AreThoseOfTheWhole)
         ASSERT_EQ(a.mesh.parts.size(), 2u);
         ASSERT_TRUE(a.report.symmetry);
         EXPECT_EQ(a.report.instances.size(), 2u * 6u);
+        ASSERT_FALSE(a.shared.empty());
+        for (const MolecularSurface::SharedVertex& shared : a.shared) {
+            const Motion& motion = unit.placement.instances[std::size_t(shared.motion)];
+            const Vec3d there = motion.placed(Vec3d(a.mesh.positions[shared.other]));
+            EXPECT_LT((there - Vec3d(a.mesh.positions[shared.vertex])).length(), 1e-3);
+        }
         EXPECT_TRUE(checkTopology(makeSurface(unit, options).mesh, Progress()).closed);
     }
 }
