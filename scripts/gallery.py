@@ -21,20 +21,25 @@ FOLDER = ROOT / "docs" / "pictures" / "gallery"
 
 
 def commands(page):
-    """The commands of each picture as words, by the name of its file; the last one draws it, others make what it takes."""
+    """The commands of each picture as words, by the name of its file; the last one draws it, others make what it takes.
+    A file of groups is written by printf."""
     found = {}
     for name, block in re.findall(r"\(pictures/gallery/([\w.]+)\)\s*```sh\n(?:mkdir [^\n]*\n)?(.*?)\n```", page, re.DOTALL):
         calls = [shlex.split(line) for line in block.splitlines()]
-        if any(words[0] != "vdb_molsurf" for words in calls) or calls[-1][-2:] != ["-o", f"gallery/{name}"]:
+        if any(words[0] not in ("vdb_molsurf", "printf") for words in calls) or calls[-1][-2:] != ["-o", f"gallery/{name}"]:
             sys.exit(f"gallery.py: expected vdb_molsurf ... -o gallery/{name}, got {block}")
-        found[name] = [words[1:] for words in calls]
+        found[name] = calls
     return found
 
 
 def draw(program, calls, path):
     (ROOT / "gallery").mkdir(exist_ok=True)  # git ignores it
-    for words in [*calls[:-1], [*calls[-1][:-1], path]]:
-        subprocess.run([program, *words, "-q", "--force"], cwd=ROOT, check=True)
+    for name, *words in [*calls[:-1], [*calls[-1][:-1], path]]:
+        if name == "printf":  # FORMAT > FILE
+            with open(ROOT / words[-1], "w") as file:
+                subprocess.run([name, *words[:-2]], stdout=file, check=True)
+        else:
+            subprocess.run([program, *words, "-q", "--force"], cwd=ROOT, check=True)
 
 
 def faults(program):

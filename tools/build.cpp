@@ -199,7 +199,7 @@ void centerMesh(CommandLine& call, MolecularSurface& result, Mesh& bodies)
     for (openvdb::Vec3d& place : call.picture.zoom) place -= center;
     if (call.picture.model) {
         auto model = std::make_shared<AtomModel>(*call.picture.model);
-        for (MeshInstance& thing : model->instances) thing.translation -= center;
+        for (MeshInstance& copy : model->copies) copy.translation -= center;
         shiftBack(center, model->bodies.mesh.positions);
         call.picture.model = model;
     }

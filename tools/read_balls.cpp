@@ -36,6 +36,38 @@ bool isThere(bool partly, const F& f)
     return true;
 }
 
+/// The labels of copies that a surface leaves out. A group of certain copies is none of theirs, but
+/// keeps its place, which decides the colours of the others.
+LabelOptions labelsOfOthers(LabelOptions labels)
+{
+    for (auto* groups : {&labels.groups, &labels.colorGroups})
+        for (GroupRule& group : *groups)
+            if (!group.copies.all()) {
+                group.copies = {};
+                group.select = "none";
+            }
+    labels.labels = labels.names = true;
+    return labels;
+}
+
+/// The atoms that a rule shows beside a surface.
+/// @param[in] options  of the surface
+BallSet shownBalls(const Structure& structure, const CommandLine& call,
+                   const SelectOptions& options, const ShowRule& rule, const BallSet& surface,
+                   const Progress& progress)
+{
+    if (!rule.others) {
+        SelectOptions beside = besideSurface(options, rule.select);
+        beside.assembly.instances = options.assembly.instances;
+        return selectBalls(structure, beside, {}, 0.0, progress);
+    }
+    BallSet others = selectBalls(structure, ofOtherCopies(options, rule.select),
+                                 labelsOfOthers(call.labels), probeOf(call.options), progress);
+    const Color plain = rule.byCopy ? Color{255, 255, 255} : call.picture.plain;
+    colorLikeSurface(surface, call.options.color, plain, progress, others);
+    return others;
+}
+
 } // namespace
 
 DescribedBalls readBalls(const std::string& path, const CommandLine& call, Terminal& terminal,
@@ -73,11 +105,17 @@ DescribedBalls readBalls(const std::string& path, const CommandLine& call, Termi
         return selectBalls(structure, besideSurface(options, select), {}, 0.0, terminal);
     };
     std::vector<ShowRule> rules;
-    std::vector<BallSet> shown;
-    for (const ShowRule& rule : call.shows) {
-        const bool there = isThere(other, [&] { shown.push_back(chosen(rule.select)); });
-        if (there) rules.push_back(rule);
+    std::vector<BallSet> shown, others;
+    for (ShowRule rule : call.shows) {
+        rule.byCopy = rule.others && !rule.color && call.colorsCopies();
+        const bool there = isThere(other, [&] {
+            shown.push_back(shownBalls(structure, call, options, rule, balls, terminal));
+        });
+        if (!there) continue;
+        rules.push_back(rule);
+        if (rule.others) others.push_back(shown.back());
     }
+    if (!others.empty() && call.viewed.empty()) faceSurface(balls, others, *picture);
     showAtoms(rules, std::move(shown), structure.bonds, balls, terminal, *picture);
     for (const NoteText& note : call.notes)
         if (!other || !isOfPlaces(note))

@@ -29,7 +29,7 @@ _vdb_molsurf()
         "build":--view) words="auto" ;;
         "build":--background) words="transparent" ;;
         "build":--style) words="soft glossy outline flat" ;;
-        "build":--show) words="sticks balls orders spheres tube pockets" ;;
+        "build":--show) words="sticks balls orders spheres tube spheres,others pockets" ;;
         "build":--legend) words="auto on off" ;;
         "build":--require) words="watertight manifold components= cavities= genus= min-angle=" ;;
         "build":--regularizer) words="gradient area" ;;
@@ -52,7 +52,7 @@ _vdb_molsurf()
         "batch":--view) words="auto" ;;
         "batch":--background) words="transparent" ;;
         "batch":--style) words="soft glossy outline flat" ;;
-        "batch":--show) words="sticks balls orders spheres tube pockets" ;;
+        "batch":--show) words="sticks balls orders spheres tube spheres,others pockets" ;;
         "batch":--legend) words="auto on off" ;;
         "batch":--require) words="watertight manifold components= cavities= genus= min-angle=" ;;
         "batch":--regularizer) words="gradient area" ;;

@@ -122,7 +122,7 @@ complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "conver
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l size -r -d 'width in pixels; the height follows the shape'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l background -x -a 'transparent' -d 'as #rrggbb or #rgb, a name such as black, or transparent'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch" "compare" "convert"' -l style -x -a 'soft glossy outline flat' -d 'soft; glossy: with highlights; outline: as drawn with a'
-complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l show -x -a 'sticks balls orders spheres tube pockets' -d 'atoms beside the surface, whole and opaque, such as'
+complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l show -x -a 'sticks balls orders spheres tube spheres,others pockets' -d 'atoms beside the surface, whole and opaque, such as'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l label -r -d 'a text at the middle of atoms, such as "A/57=active site";'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build" "batch"' -l ruler -r -d 'a line between the middles of atoms, or places X,Y,Z, with'
 complete -c vdb_molsurf -n '__vdb_molsurf_verb "build"' -l panel -r -d 'a further picture beside the first, with its camera, scale'

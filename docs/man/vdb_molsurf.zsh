@@ -28,7 +28,7 @@ case "$verb:$words[CURRENT-1]" in
     "build:--view") compadd -- 'auto'; return ;;
     "build:--background") compadd -- 'transparent'; return ;;
     "build:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
-    "build:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube' 'pockets'; return ;;
+    "build:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube' 'spheres,others' 'pockets'; return ;;
     "build:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "build:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "build:--regularizer") compadd -- 'gradient' 'area'; return ;;
@@ -51,7 +51,7 @@ case "$verb:$words[CURRENT-1]" in
     "batch:--view") compadd -- 'auto'; return ;;
     "batch:--background") compadd -- 'transparent'; return ;;
     "batch:--style") compadd -- 'soft' 'glossy' 'outline' 'flat'; return ;;
-    "batch:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube' 'pockets'; return ;;
+    "batch:--show") compadd -- 'sticks' 'balls' 'orders' 'spheres' 'tube' 'spheres,others' 'pockets'; return ;;
     "batch:--legend") compadd -- 'auto' 'on' 'off'; return ;;
     "batch:--require") compadd -- 'watertight' 'manifold' 'components=' 'cavities=' 'genus=' 'min-angle='; return ;;
     "batch:--regularizer") compadd -- 'gradient' 'area'; return ;;

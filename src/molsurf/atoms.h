@@ -36,6 +36,7 @@ struct CopyChoice {
     std::vector<std::pair<int, int>> ranges; ///< first and last number, from 1; empty: see fold
     int fold = 0; ///< those about the nearest axis of so many folds, with copy 1; 0 without ranges:
                   ///< all
+    bool others = false; ///< whether those are used that are not chosen
 
     bool all() const { return ranges.empty() && fold == 0; }
 };

@@ -58,7 +58,8 @@ void showAtoms(const std::vector<std::pair<std::string, const BallSet*>>& show,
     std::vector<BallSet> atoms;
     for (const auto& [word, some] : show) {
         rules.push_back(parseShow(word));
-        if (!some || !some->names || !some->labels || !rules.back().select.empty())
+        const ShowRule& rule = rules.back();
+        if (!some || !some->names || !some->labels || !rule.select.empty() || rule.others)
             throw Error(ErrorKind::Usage,
                         "`show`: expected a word and atoms with names, got " + inQuotes(word));
         atoms.push_back(*some);

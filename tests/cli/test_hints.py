@@ -540,6 +540,8 @@ CASES = {
          f"vdb_molsurf 1crn.pdb {FAST} --memory 1G --fields surface,Cd -o a.vdb"),
         ("--format ply", f"vdb_molsurf one.xyzr {FAST} -o - > a.ply",
          f"vdb_molsurf one.xyzr {FAST} -o - --format ply > a.ply"),
+        ("--copies fold:5, for example", f"vdb_molsurf 2buk.pdb.gz --assembly 1 {FAST} --show spheres,others -o a.png",
+         f"vdb_molsurf 2buk.pdb.gz --assembly 1 --copies fold:5 {FAST} --show spheres,others -o a.png"),
         ("-o FILE.residues.csv for areas", "vdb_molsurf 1crn.pdb -o a.csv", "vdb_molsurf 1crn.pdb -o a.residues.csv"),
         ("--trajectory", f"vdb_molsurf 1d3z.pdb.gz --model 2 --frames 1 {FAST} -o a.ply",
          f"vdb_molsurf 1d3z.pdb.gz --model 2 --frames 1 --trajectory 1d3z.xtc {FAST} -o a.ply"),

@@ -75,6 +75,31 @@ class Instances(ToolTest):
         self.check(0, "a.pdb", "--assembly", "1", "--instances", *QUICK, *voxel, *words, *outputs, "--force")
         return json.loads((self.folder / "a.json").read_text())
 
+    def test_surfaces_of_groups(self):
+        """Each copy has the surfaces of its groups, each of which is made once; by symmetry, too."""
+        operators = assembly("dihedral")
+        self.write(operators)
+        (self.folder / "g").write_text("ends */1-2\nrest */3-5\n")
+        for option in ("--split group", "--surface-of ends=ses"):
+            report = self.run_copies("--groups", "g", *option.split())
+            self.assertEqual([part["name"] for part in report["parts"]][:1], ["ends"])
+            self.assertEqual([copy["part"] for copy in report["instances"]], 10 * [0, 1])
+            self.assertEqual(report["instances"][2]["matrix"], report["instances"][3]["matrix"])
+            document, _ = read_glb((self.folder / "a.glb").read_bytes())
+            self.assertEqual(len(document["meshes"]), 2)
+            self.assertEqual(sum("mesh" in node for node in document["nodes"]), 20)
+            self.usda()
+        self.check(0, "a.pdb", "--assembly", "1", "--by-symmetry", *QUICK, *FAST, "--groups", "g", "--split", "group",
+                   "-o", "s.json", "-o", "s.ply", "-o", "s.glb")
+        whole = json.loads((self.folder / "s.json").read_text())
+        self.check(0, "a.pdb", "--assembly", "1", *QUICK, *FAST, "--groups", "g", "--split", "group", "-o", "w.json")
+        plain = json.loads((self.folder / "w.json").read_text())
+        self.assertEqual(whole["atoms"], plain["atoms"])
+        for part, other in zip(whole["parts"], plain["parts"]):
+            self.assertEqual((part["name"], part["atoms"]), (other["name"], other["atoms"]))
+            for key in ("area", "volume"):
+                self.assertLess(abs(part["surface"][key] / other["surface"][key] - 1), 0.01, (part["name"], key))
+
     def usda(self):
         text = (self.folder / "a.usda").read_text()
         self.assertEqual(faults(text), [])

@@ -269,6 +269,35 @@ class Pictures(ToolTest):
             self.check(1 if "XYZ" in value or "CB" in value else 2, CRAMBIN, "-o", "b.png", "--show", value, says=says)
         self.check(0, CRAMBIN, *FAST, "-o", "b.ply", "--show", "sticks", says="--show is for .html, .png")
 
+    def test_other_copies(self):
+        """The copies that the surface leaves out are balls beside it, in its colours or in one, and make the whole with it."""
+        red, blue = (255, 0, 0), (0, 0, 255)
+        words = [DATA / "2buk.pdb.gz", "--assembly", 1, *FAST, "--size", 200, "--legend", "off", "--style", "flat"]
+        unit = [*words, "--copies", "fold:5", "--plain-color", "#ff0000", "--show"]
+        def count(rows, color):
+            return sum(row.count(color) for row in rows)
+        _, rows = self.picture(*unit, "spheres,others,#0000ff")
+        ink = sum(pixel not in (red, blue, WHITE) for row in rows for pixel in row)
+        self.assertGreater(count(rows, red), 2000)  # the five face the eye
+        self.assertGreater(count(rows, blue), count(rows, red))
+        self.assertLess(ink, 0.3 * count(rows, blue))  # lines
+        middle = len(rows) // 2
+        self.assertIn(red, rows[middle][90:110])
+        # As wide as the whole.
+        _, whole = self.picture(*words, "--instances", "--surface", "vdw", "--view", "1,2,3")
+        _, both = self.picture(*unit, "spheres,others", "--view", "1,2,3")
+        for rows in (whole, both):
+            self.assertFalse(self.has(rows, blue))
+        outside = [sum(pixel == WHITE for row in rows for pixel in row) for rows in (whole, both)]
+        self.assertLess(abs(outside[0] - outside[1]), 0.02 * outside[0])
+        # By groups all have the colours of the file, at any place.
+        (self.folder / "g").write_text("low */1-70 #d00000\nmiddle */71-130 #00d000\nhigh */131-200 #0000d0\n")
+        _, rows = self.picture(*words, "--copies", 1, "--groups", "g", "--color", "group", "--show", "spheres,others")
+        for color in ((0xD0, 0, 0), (0, 0xD0, 0), (0, 0, 0xD0)):
+            self.assertGreater(sum(color in row for row in rows), 100, color)  # rows of pixels: not the unit's alone
+        self.check(2, *words, "--show", "spheres,others", "-o", "b.png", says="expected --copies too")
+        self.check(2, *words, "--copies", 1, "--show", "spheres,other", "-o", "b.png", says="did you mean others?")
+
     def test_a_ligand_in_its_pocket(self):
         """Bodies of pockets hide at most half of the pixels of ATP, and are in the picture."""
         (self.folder / "a.view").unlink(missing_ok=True)

@@ -488,7 +488,9 @@ Option showOption()
     Option show = rulesRow<CommandLine>(
         {"show", "[SEL=]WORD",
          wrapped("atoms beside the surface, whole and opaque, such as \"(HEM)=sticks\", with "
-                 "carbon in the colour of its chain, or sticks,golden; repeats; " +
+                 "carbon in the colour of its chain, or sticks,golden, or all of them in one, as "
+                 "sticks,#ff0000; spheres,others: those of the copies that --copies leaves out, "
+                 "coloured as the surface; repeats; " +
                      joinWords(all, "; "),
                  helpWidth)},
         [](CommandLine& call, const std::string& value) {
@@ -498,6 +500,7 @@ Option showOption()
                 call.shows.push_back(parseShow(value, {"pockets"}));
         });
     for (const AtomStyle& row : atomStyles()) show.words.push_back(row.word);
+    show.words.push_back("spheres,others");
     show.words.push_back("pockets");
     return of(wholes, shownIn(Pixels | ColorChoices, show));
 }

@@ -9,6 +9,7 @@
 #include "molsurf/show/picture/draw_legend.h"
 #include "molsurf/show/picture/panels.h"
 #include "molsurf/show/picture/view.h"
+#include "molsurf/surface/unit_mesh.h"
 
 #include <algorithm>
 #include <map>
@@ -45,9 +46,11 @@ std::vector<MeshInstance> instancesOf(const BallSet& atoms, const Mesh& mesh, bo
     std::vector<MeshInstance> out;
     for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
         const Instance& copy = atoms.placement.instances[i];
-        out.push_back({copy, copy.part,
-                       "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name),
-                       colors.empty() ? one : colors[i]});
+        const std::string name = "copy " + (copy.name.empty() ? std::to_string(i + 1) : copy.name);
+        const std::vector<std::size_t> parts = partsOfCopy(atoms.placement, mesh, copy);
+        for (const std::size_t part : parts)
+            out.push_back({copy, part, parts.size() > 1 ? name + " " + mesh.parts[part].name : name,
+                           colors.empty() ? one : colors[i]});
     }
     return out;
 }
@@ -69,16 +72,29 @@ DrawOptions pictureOf(const DrawnSurface& surface, const Progress& progress)
     options.instances =
         instancesOf(atoms, surface.mesh, surface.colorsCopies, options.plain, progress);
     constexpr std::size_t enough = 300; // balls of a prototype
-    for (const MeshInstance& copy : options.instances) {
-        const auto [begin, end] = atoms.prototype(copy.part);
+    for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
+        const auto [begin, end] = atoms.prototype(p);
+        std::vector<openvdb::Vec3d>& some = options.aboutParts.emplace_back();
         for (std::size_t i = begin; i < end; i += 1 + (end - begin) / enough)
-            options.about.push_back(copy.placed(openvdb::Vec3d(atoms.balls[i].center)));
+            some.emplace_back(atoms.balls[i].center);
     }
+    if (options.aboutParts.size() < surface.mesh.parts.size()) // several repeat with a copy
+        options.aboutParts.resize(surface.mesh.parts.size());
     return options;
 }
 
 namespace
 {
+
+/// The colours of a surface's chains by their names.
+std::map<std::string, Color> colorsOfChains(const BallSet& surface, const Progress& progress)
+{
+    std::map<std::string, Color> out;
+    if (!surface.labels) return out;
+    const std::vector<Color> own = chainColors(surface, progress);
+    for (std::size_t i = 0; i < own.size(); ++i) out[surface.labels->chains[i]] = own[i];
+    return out;
+}
 
 /// The colours of chains by their names: those of the surface, and for others their own.
 std::vector<Color> colorsOfChains(const BallSet& atoms,
@@ -93,18 +109,60 @@ std::vector<Color> colorsOfChains(const BallSet& atoms,
     return colors;
 }
 
+/// Adds the centres of balls, of all copies, and their number.
+void addCentres(const BallSet& atoms, openvdb::Vec3d& sum, double& count)
+{
+    for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
+        const auto [begin, end] = atoms.prototype(p);
+        openvdb::Vec3d own(0.0);
+        for (std::size_t i = begin; i < end; ++i) own += atoms.balls[i].center;
+        const auto n = double(end - begin);
+        const auto add = [&](const openvdb::Vec3d& more) {
+            sum += more;
+            count += n;
+        };
+        if (atoms.placement.isWhole()) add(own);
+        for (const Instance& copy : atoms.placement.instances)
+            if (copy.part == p) add(n * copy.placed(own / n));
+    }
+}
+
 } // namespace
+
+void colorLikeSurface(const BallSet& surface, ColorBy by, const Color& plain,
+                      const Progress& progress, BallSet& others)
+{
+    BallLabels& labels = *others.labels;
+    labels.chainColors = colorsOfChains(others, colorsOfChains(surface, progress), progress);
+    if (surface.labels && surface.labels->values && labels.values) {
+        labels.values->low = surface.labels->values->low;
+        labels.values->high = surface.labels->values->high;
+    }
+    if (by == ColorBy::Nothing)
+        others.colors.assign(others.balls.size(), plain);
+    else if (others.colors.empty())
+        others.colors = ballColors(others, by, progress);
+}
+
+void faceSurface(const BallSet& surface, const std::vector<BallSet>& others, DrawOptions& picture)
+{
+    if (picture.toEye.lengthSqr() > 0.0 || picture.upright.lengthSqr() > 0.0) return;
+    constexpr double least = 1.0; // a surface about the middle has no side [Å]
+    openvdb::Vec3d own(0.0), all(0.0);
+    double ofOwn = 0.0, ofAll = 0.0;
+    addCentres(surface, own, ofOwn);
+    addCentres(surface, all, ofAll);
+    for (const BallSet& some : others) addCentres(some, all, ofAll);
+    const openvdb::Vec3d way = own / ofOwn - all / ofAll;
+    if (way.length() > least) lookFrom(way, picture);
+}
 
 void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
                const std::shared_ptr<const FileBonds>& bonds, const BallSet& surface,
                const Progress& progress, DrawOptions& picture)
 {
     if (atoms.empty()) return;
-    std::map<std::string, Color> ofSurface;
-    if (surface.labels) {
-        const std::vector<Color> own = chainColors(surface, progress);
-        for (std::size_t i = 0; i < own.size(); ++i) ofSurface[surface.labels->chains[i]] = own[i];
-    }
+    const std::map<std::string, Color> ofSurface = colorsOfChains(surface, progress);
     std::set<std::string> chains; // of the surface and of what is shown beside it
     for (const auto& [name, color] : ofSurface) chains.insert(name);
     for (const BallSet& some : atoms)
@@ -113,6 +171,7 @@ void showAtoms(const std::vector<ShowRule>& rules, std::vector<BallSet> atoms,
     std::vector<ShownAtoms> shown;
     for (std::size_t k = 0; k < atoms.size(); ++k) {
         atoms[k].labels->chainColors = colorsOfChains(atoms[k], ofSurface, progress);
+        if (rules[k].color) atoms[k].colors.assign(atoms[k].balls.size(), *rules[k].color);
         const bool byChain = chains.size() > 1 && !rules[k].golden;
         shown.push_back({std::move(atoms[k]), rules[k], bonds, byChain});
     }

@@ -59,6 +59,15 @@ std::vector<MeshInstance> instancesOf(const BallSet& atoms, const Mesh& mesh, bo
 /// voxel.
 DrawOptions pictureOf(const DrawnSurface& surface, const Progress& progress);
 
+/// Gives atoms of copies that a surface leaves out its colours: those of atoms, or one for all.
+/// @param[in] by  the surface's; of a curvature they are neutral
+void colorLikeSurface(const BallSet& surface, ColorBy by, const Color& plain,
+                      const Progress& progress, BallSet& others);
+
+/// Looks at the side where the surface lies in the whole that it makes with other atoms, unless the
+/// picture has a view.
+void faceSurface(const BallSet& surface, const std::vector<BallSet>& others, DrawOptions& picture);
+
 /// Puts atoms into the picture. Chains have the colours of the surface's.
 /// @param[in] atoms    of each rule
 /// @param[in] bonds    of their file; null: it gives none

@@ -10,6 +10,7 @@
 #include "molsurf/molecule/selection/subset.h"
 #include "molsurf/show/color/curvature_colors.h"
 #include "molsurf/show/color/palette.h"
+#include "molsurf/surface/unit_run.h"
 #include "molsurf/surface/whole_run.h"
 
 #include <algorithm>
@@ -63,9 +64,10 @@ std::vector<Part> partsOf(const BallSet& atoms, const SurfaceOptions& options)
         const bool own = g >= 0 && alone[std::size_t(g)];
         parts[own ? std::size_t(g) : groups.size()].balls.push_back(i);
     }
-    parts.erase(std::remove_if(parts.begin(), parts.end(),
-                               [](const Part& part) { return part.balls.empty(); }),
-                parts.end());
+    const auto hasNone = [&](const Part& part) { // the first balls are those of the surface
+        return part.balls.empty() || part.balls[0] >= atoms.own();
+    };
+    parts.erase(std::remove_if(parts.begin(), parts.end(), hasNone), parts.end());
     return parts;
 }
 
@@ -228,6 +230,70 @@ BallSet colored(const BallSet& atoms, ColorBy by, const Progress& progress)
     return out;
 }
 
+/// The balls of a part; those of a unit with the part's balls around it.
+BallSet ballsOf(const Part& part, const BallSet& all)
+{
+    BallSet own = subset(all, part.balls);
+    if (!all.placement.unit) return own;
+    Placement& placement = own.placement = all.placement;
+    const auto first = [&](std::size_t ball) { // of the part, from a ball of all
+        return std::size_t(std::lower_bound(part.balls.begin(), part.balls.end(), ball) -
+                           part.balls.begin());
+    };
+    placement.around = part.balls.size() - first(all.own());
+    for (std::size_t& begin : placement.begin) begin = first(begin);
+    for (std::size_t i = 0; i < part.balls.size(); ++i)
+        placement.motionOf[i] = all.placement.motionOf[part.balls[i]];
+    placement.motionOf.resize(part.balls.size());
+    countBalls(own, own.resolutionOf, own.resolutions);
+    countBalls(own, own.labels->groupOf, own.labels->groups);
+    return own;
+}
+
+/// The surface of a part.
+MolecularSurface runPart(const BallSet& own, const SurfaceOptions& options, Progress& progress)
+{
+    if (own.placement.unit) return runUnit(inSpatialOrder(own), options, progress);
+    return runWhole(own, options, progress);
+}
+
+/// Takes the grids of a part, which get its name.
+void addGrids(MolecularSurface& part, const std::string& suffix, MolecularSurface& whole)
+{
+    if (part.surface) {
+        part.surface->setName("surface" + suffix);
+        whole.fields.push_back(part.surface);
+    }
+    for (const auto& field : part.fields) {
+        field->setName(field->getName() + suffix);
+        whole.fields.push_back(field);
+    }
+    for (const auto& field : part.shown) {
+        field->setName(field->getName() + suffix);
+        whole.shown.push_back(field);
+    }
+}
+
+/// Adds what the borders of a unit's part have. Its vertices come behind those before.
+void addBorders(const MolecularSurface& part, MolecularSurface& whole)
+{
+    const auto before = std::uint32_t(whole.mesh.positions.size());
+    for (MolecularSurface::SharedVertex shared : part.shared) {
+        shared.vertex += before;
+        shared.other += before;
+        whole.shared.push_back(shared);
+    }
+    const auto& found = part.report.symmetry;
+    auto& sum = whole.report.symmetry;
+    if (!found) return;
+    if (!sum) {
+        sum = found;
+        return;
+    }
+    sum->gap = std::max(sum->gap, found->gap);
+    sum->openVertices += found->openVertices;
+}
+
 } // namespace
 
 MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
@@ -243,26 +309,18 @@ MolecularSurface runParts(const BallSet& atoms, const SurfaceOptions& options, P
         QuietProgress quiet(progress);
         MolecularSurface result;
         try {
-            const BallSet own = subset(all, part.balls);
+            const BallSet own = ballsOf(part, all);
             checkBalls(own.balls, options, Pieces::One, availableMemory());
             SurfaceOptions ofPart{ofKind(options, part.kind), options};
             ofPart.needs.levelSet = true; // a field of the whole
-            result = runWhole(own, ofPart, quiet);
-            result.report.atoms = part.balls.size();
+            result = runPart(own, ofPart, quiet);
+            result.report.atoms = own.whole();
         } catch (const Error& e) {
             throw Error(e, part.name + ": " + e.what());
         }
         const std::string suffix = "_" + gridName(part.name, names);
-        result.surface->setName("surface" + suffix);
-        whole.fields.push_back(result.surface);
-        for (const auto& field : result.fields) {
-            field->setName(field->getName() + suffix);
-            whole.fields.push_back(field);
-        }
-        for (const auto& field : result.shown) {
-            field->setName(field->getName() + suffix);
-            whole.shown.push_back(field);
-        }
+        addGrids(result, suffix, whole);
+        addBorders(result, whole);
         append(whole.mesh, result.mesh, part.name);
         whole.report += named(part.name, std::move(result.report));
     }

@@ -262,9 +262,9 @@ const std::vector<ProductRow>& productTable()
 {
     static const std::vector<ProductRow> rows = {
         {"`surface`", InClosedForm, [](auto&, auto& o) { return !isClosedForm(o); }},
-        {"`split`", InBricks | BySymmetry | InClosedForm | ByAtom | WithoutMesh,
+        {"`split`", InBricks | InClosedForm | ByAtom | WithoutMesh,
          [](auto&, auto& o) { return o.split; }, needGroups},
-        {"`surfaceOf`", InBricks | BySymmetry | InClosedForm | ByAtom | WithoutMesh,
+        {"`surfaceOf`", InBricks | InClosedForm | ByAtom | WithoutMesh,
          [](auto&, auto& o) { return !o.surfaceOf.empty(); }, needGroups},
         {"`instances`", WithoutMesh, [](auto& atoms, auto&) { return ofPrototypes(atoms); },
          needGroups},

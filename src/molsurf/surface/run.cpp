@@ -22,38 +22,40 @@ namespace
 
 MolecularSurface run(const BallSet& atoms, const SurfaceOptions& options, Progress& progress)
 {
-    if (atoms.placement.unit) return runUnit(inSpatialOrder(atoms), options, progress);
+    const bool parts = options.ofParts() || atoms.placement.prototypes() > 1;
+    if (atoms.placement.unit && !parts) return runUnit(inSpatialOrder(atoms), options, progress);
     if (!options.grid) return runWithoutGrid(atoms, options, progress);
-    if (options.ofParts() || atoms.placement.prototypes() > 1)
-        return runParts(atoms, options, progress);
+    if (parts) return runParts(atoms, options, progress);
     return runWhole(atoms, options, progress);
 }
 
-/// The copies that motions make.
-std::vector<Report::Copy> copiesOf(const Placement& placement)
+/// The copies of the parts of a mesh that motions make.
+std::vector<Report::Copy> copiesOf(const Placement& placement, const Mesh& mesh)
 {
     std::vector<Report::Copy> copies;
     for (const Instance& instance : placement.instances) {
-        Report::Copy& copy = copies.emplace_back();
-        copy.part = instance.part;
-        copy.name = instance.name;
-        for (std::size_t row = 0; row < 3; ++row) {
-            const auto& r = instance.rotation[row];
-            copy.matrix[row] = {r[0], r[1], r[2], instance.translation[int(row)]};
+        for (const std::size_t part : partsOfCopy(placement, mesh, instance)) {
+            Report::Copy& copy = copies.emplace_back();
+            copy.part = part;
+            copy.name = instance.name;
+            for (std::size_t row = 0; row < 3; ++row) {
+                const auto& r = instance.rotation[row];
+                copy.matrix[row] = {r[0], r[1], r[2], instance.translation[int(row)]};
+            }
+            copy.matrix[3] = {0.0, 0.0, 0.0, 1.0};
         }
-        copy.matrix[3] = {0.0, 0.0, 0.0, 1.0};
     }
     return copies;
 }
 
 /// Describes what the surface was made of, and by which program.
-void describeRun(const BallSet& atoms, Report& report)
+void describeRun(const BallSet& atoms, const Mesh& mesh, Report& report)
 {
     report.version = MOLSURF_VERSION;
     report.atoms = atoms.whole();
     const SelectionRecord& record = atoms.record;
     report.input = record.input;
-    report.instances = copiesOf(atoms.placement);
+    report.instances = copiesOf(atoms.placement, mesh);
     if (record.beads > 0) report.coarse = Report::Coarse{record.beads, record.beadAtoms};
     for (const ResolutionGroup& group : atoms.resolutions) {
         report.resolutions.push_back(
@@ -68,7 +70,7 @@ MolecularSurface make(const BallSet& atoms, const SurfaceOptions& options, Progr
                availableMemory());
     checkProducts(atoms, options);
     MolecularSurface result = run(atoms, options, progress);
-    describeRun(atoms, result.report);
+    describeRun(atoms, result.mesh, result.report);
     if (const std::string text = packingWarning(atoms.balls); !text.empty())
         result.report.warnings.push_back(text);
     result.report.voxel = options.voxel;

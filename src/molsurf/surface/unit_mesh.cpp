@@ -8,6 +8,9 @@
 #include "molsurf/show/io/part_ranges.h"
 #include "molsurf/surface/unit_border.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace molsurf
 {
 
@@ -141,6 +144,15 @@ Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh
     return out;
 }
 
+std::vector<std::size_t> partsOfCopy(const Placement& placement, const Mesh& mesh,
+                                     const Instance& copy)
+{
+    if (placement.prototypes() > 1) return {copy.part};
+    std::vector<std::size_t> parts(std::max<std::size_t>(mesh.parts.size(), 1));
+    std::iota(parts.begin(), parts.end(), std::size_t{0});
+    return parts;
+}
+
 Mesh meshOfWhole(const BallSet& atoms, const MolecularSurface& surface, const Progress& progress)
 {
     if (atoms.placement.unit) return wholeMesh(atoms, surface, surface.mesh, true, {}, progress);
@@ -150,7 +162,8 @@ Mesh meshOfWhole(const BallSet& atoms, const MolecularSurface& surface, const Pr
     const std::vector<PartRange> parts = partRanges(surface.mesh, "");
     for (const Instance& copy : atoms.placement.instances) {
         stopIfCancelled(progress);
-        addCopy(surface.mesh, parts.at(copy.part), copy, out);
+        for (const std::size_t part : partsOfCopy(atoms.placement, surface.mesh, copy))
+            addCopy(surface.mesh, parts.at(part), copy, out);
     }
     return out;
 }

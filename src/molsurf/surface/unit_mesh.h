@@ -26,6 +26,10 @@ namespace molsurf
 Mesh wholeMesh(const BallSet& atoms, const MolecularSurface& surface, const Mesh& unit, bool weld,
                const std::vector<std::array<std::uint8_t, 3>>& colors, const Progress& progress);
 
+/// The parts of a mesh that a copy of an assembly repeats: of several prototypes its own, else all.
+std::vector<std::size_t> partsOfCopy(const Placement& placement, const Mesh& mesh,
+                                     const Instance& copy);
+
 /// The mesh of a whole: that of a unit's rotations, welded, or of all copies of prototypes, each of
 /// them a part.
 /// @param[in] atoms    that are not the whole themselves

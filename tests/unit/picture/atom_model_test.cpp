@@ -33,12 +33,21 @@ AtomModel modelOf(const BallSet& atoms, const char* style)
     return atomModel({{atoms, parseShow(style)}}, Progress());
 }
 
-/// How many copies there are of each part: balls, sticks, tubes.
+/// How many balls, sticks and meshes of tubes there are.
 std::array<int, 3> partsOf(const AtomModel& model)
 {
     std::array<int, 3> count{};
-    for (const MeshInstance& thing : model.instances) ++count[thing.part];
+    for (const AtomUnit& unit : model.units) {
+        count[0] += int(unit.balls.size());
+        count[1] += int(unit.sticks.size());
+        count[2] += !unit.mesh.triangles.empty();
+    }
     return count;
+}
+
+Vec3d centerOf(const openvdb::Vec4f& ball)
+{
+    return {ball[0], ball[1], ball[2]};
 }
 
 // Crambin is one chain of 327 atoms with 5 prolines, 2 tyrosines, a phenylalanine and 3 disulfides:
@@ -170,8 +179,8 @@ TEST(AtomModel, DrawsOrders)
         for (const char* name : {"CG", "CD1", "CD2", "CE1", "CE2", "CZ"})
             if (atoms.names->atoms[i].name == name) middle += atoms.balls[i].center / 6.0;
     int near = 0;
-    for (const MeshInstance& thing : model.instances)
-        near += thing.part == 1 && (thing.translation - middle).length() < 1.15;
+    for (const auto& ends : model.units[0].sticks)
+        near += (centerOf(ends[0]) - middle).length() < 1.15;
     EXPECT_EQ(near, 2 * 6 * dashes);
 }
 
@@ -181,20 +190,13 @@ TEST(AtomModel, SticksLieBetweenTheirAtoms)
     const BallSet atoms = atomsOf("/1/A/1/N,CA");
     const AtomModel model = modelOf(atoms, "sticks");
     const Vec3d &a = atoms.balls[0].center, &b = atoms.balls[1].center, along = (b - a).unit();
-    const std::size_t first = model.mesh.parts[1].firstTriangle;
-    for (const MeshInstance& stick : model.instances) {
-        if (stick.part != 1) continue;
-        const Vec3d& end = stick.translation;
-        EXPECT_TRUE(end == a || end == b);
+    for (const auto& [from, to] : model.units[0].sticks) {
+        const Vec3d end = (centerOf(from) - a).length() < 1e-5 ? a : b;
+        EXPECT_NEAR((centerOf(from) - end).length(), 0.0, 1e-5);
         const Vec3d way = end == a ? along : -along;
-        for (std::size_t t = first; t < model.mesh.parts[2].firstTriangle; ++t) {
-            for (const std::uint32_t corner : model.mesh.triangles[t]) {
-                const Vec3d x = stick.placed(Vec3d(model.mesh.positions[corner])) - end;
-                const double height = x.dot(way), length = (b - a).length();
-                EXPECT_NEAR(height < 0.25 * length ? 0.0 : 0.5 * length, height, 1e-5);
-                EXPECT_NEAR((x - height * way).length(), 0.25, 1e-5);
-            }
-        }
+        EXPECT_NEAR((centerOf(to) - end - 0.5 * (b - a).length() * way).length(), 0.0, 1e-5);
+        EXPECT_FLOAT_EQ(from[3], 0.25f);
+        EXPECT_FLOAT_EQ(to[3], 0.25f);
     }
 }
 
@@ -204,11 +206,11 @@ TEST(AtomModel, TubesGoThroughTheBackbone)
     BallSet atoms = atomsOf("A/1-20|A/31-46");
     const AtomModel model = modelOf(atoms, "tube");
     EXPECT_EQ(partsOf(model), (std::array<int, 3>{4, 0, 1})); // two ends each
-    const std::size_t begin = model.mesh.triangles[model.mesh.parts[2].firstTriangle][0];
+    const Mesh& mesh = model.units[0].mesh;
     std::vector<Vec3d> middles;
-    for (std::size_t v = begin; v < model.mesh.positions.size(); v += 24) {
+    for (std::size_t v = 0; v < mesh.positions.size(); v += 24) {
         Vec3d sum(0.0);
-        for (std::size_t k = 0; k < 24; ++k) sum += Vec3d(model.mesh.positions[v + k]);
+        for (std::size_t k = 0; k < 24; ++k) sum += Vec3d(mesh.positions[v + k]);
         middles.push_back(sum / 24.0);
     }
     EXPECT_EQ(middles.size(), std::size_t(8 * 19 + 1 + 8 * 15 + 1));
@@ -231,11 +233,13 @@ TEST(AtomModel, TellsWhatItTakes)
     for (const AtomStyle& style : atomStyles()) {
         const ShownAtoms shown{atoms, {"", &style}};
         const AtomModel model = atomModel({shown}, Progress());
-        const double vertices = double(model.mesh.positions.size() * (2 * sizeof(Vec3f) + 3)),
-                     triangles = double(model.mesh.triangles.size() * 12),
-                     copies = double(model.instances.size() * sizeof(MeshInstance));
-        EXPECT_GT(bytesOfModel({shown}), vertices + triangles + copies) << style.word;
-        EXPECT_LT(bytesOfModel({shown}), 20.0 * (vertices + triangles + copies)) << style.word;
+        const AtomUnit& unit = model.units[0];
+        const double held = double(unit.mesh.positions.size() * (2 * sizeof(Vec3f) + 3) +
+                                   unit.mesh.triangles.size() * 12 +
+                                   unit.balls.size() * (sizeof(openvdb::Vec4f) + 3) +
+                                   unit.sticks.size() * (2 * sizeof(openvdb::Vec4f) + 3));
+        EXPECT_GT(bytesOfModel({shown}), held) << style.word;
+        EXPECT_LT(bytesOfModel({shown}), 20.0 * held) << style.word;
     }
 }
 
@@ -247,6 +251,66 @@ TEST(AtomModel, RefusesWhatItCannotShow)
     EXPECT_THROW(parseShow("(HEM)="), Error);
     EXPECT_EQ(parseShow("A/1-3=Tube").select, "A/1-3");
     EXPECT_EQ(parseShow("A/1-3=Tube").style->word, std::string("tube"));
+    EXPECT_THROW(parseShow("spheres,other"), Error);
+    EXPECT_THROW(parseShow("spheres,"), Error);
+    EXPECT_THROW(parseShow("(HEM),others=sticks,"), Error);
+}
+
+TEST(AtomModel, TakesWordsBehindAStyle)
+{
+    const ShowRule rule = parseShow("A/1,2=spheres,others,#0a0b0c");
+    EXPECT_EQ(rule.select, "A/1,2");
+    EXPECT_EQ(rule.style->word, std::string("spheres"));
+    EXPECT_TRUE(rule.others);
+    EXPECT_FALSE(rule.golden);
+    EXPECT_EQ(rule.color, (Color{10, 11, 12}));
+    EXPECT_TRUE(parseShow("sticks,Golden").golden);
+    EXPECT_FALSE(parseShow("sticks").color);
+}
+
+// The balls of a copy lie where its motion brings them, and are held once.
+TEST(AtomModel, HoldsCopiesOnce)
+{
+    BallSet atoms = atomsOf("/1/A/1-2");
+    const auto count = int(atoms.balls.size());
+    const Motion turn{{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {30, 0, 0}};
+    atoms.placement.instances = {{Motion::identity(), 0, "1"}, {turn, 0, "2"}, {turn, 0, "3"}};
+    const AtomModel model = modelOf(atoms, "spheres");
+    EXPECT_EQ(partsOf(model), (std::array<int, 3>{count, 0, 0}));
+    ASSERT_EQ(model.copies.size(), 3u);
+    EXPECT_EQ(model.copies[1].translation, Vec3d(30, 0, 0));
+}
+
+// Two prototypes of one assembly have units of their own, whose atoms are not bonded.
+TEST(AtomModel, PrototypesAreApart)
+{
+    BallSet atoms = atomsOf("/1/A/1/N,CA");
+    atoms.placement.copies = 2;
+    atoms.placement.begin = {0, 1, 2};
+    atoms.placement.numbers = {1, 2};
+    atoms.placement.instances = {{Motion::identity(), 1, "1"}, {Motion::identity(), 0, "2"}};
+    const AtomModel model = modelOf(atoms, "sticks");
+    ASSERT_EQ(model.units.size(), 2u);
+    EXPECT_EQ(model.copies.size(), 2u);
+    EXPECT_EQ(partsOf(model), (std::array<int, 3>{2, 0, 0}));
+    for (const MeshInstance& copy : model.copies)
+        EXPECT_NEAR(
+            (centerOf(model.units[copy.part].balls[0]) - atoms.balls[copy.part].center).length(),
+            0.0, 1e-5);
+}
+
+// Atoms with colours of their own keep them, also along a tube.
+TEST(AtomModel, TakesTheColorsOfTheAtoms)
+{
+    BallSet atoms = atomsOf("A/1-20");
+    atoms.colors.assign(atoms.balls.size(), {1, 2, 3});
+    for (const char* style : {"spheres", "sticks", "tube"}) {
+        const AtomModel model = modelOf(atoms, style);
+        const AtomUnit& unit = model.units[0];
+        for (const auto* colors : {&unit.ballColors, &unit.stickColors, &unit.mesh.colors})
+            for (const Color& color : *colors) EXPECT_EQ(color, (Color{1, 2, 3})) << style;
+        EXPECT_TRUE(model.chains.empty() && model.elements.empty()) << style;
+    }
 }
 
 /// A box from -h to h with normals to the outside.
@@ -288,6 +352,30 @@ Color middleOf(const Vec3d& atom, double opacity, std::optional<double> clip)
     const Picture picture = drawMesh(box(4.0f), options, Progress());
     const std::size_t at = 3 * std::size_t(picture.height / 2 * picture.width + picture.width / 2);
     return {picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]};
+}
+
+// The frame has all of a copy that lies aside, and the ball is round.
+TEST(AtomModel, CopiesAreSeenWhereTheyLie)
+{
+    BallSet atoms = atomsOf("/1/A/1/N");
+    atoms.balls[0] = {{5, 0, 0}, 2.0, 0};
+    const Motion turn{{{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}, {0, 15, 0}}; // to (0, 20, 0)
+    atoms.placement.instances = {{turn, 0, "1"}};
+    DrawOptions options;
+    options.width = 100;
+    options.toEye = {0, 0, 1};
+    options.up = {0, 1, 0};
+    options.style = findStyle("flat");
+    options.model = std::make_shared<AtomModel>(modelOf(atoms, "spheres"));
+    options.frame = PictureFrame{{0, 20, 0}, 8.0, 8.0};
+    const Picture picture = drawMesh(box(4.0f), options, Progress());
+    double blue = 0.0;
+    for (std::size_t n = 0; n < picture.rgb.size(); n += 3)
+        blue += Color{picture.rgb[n], picture.rgb[n + 1], picture.rgb[n + 2]} == Color{48, 80, 248};
+    EXPECT_NEAR(blue * 0.08 * 0.08, M_PI * 4.0, 1.0); // area [Å^2] without its rim
+    options.frame.reset();
+    const Picture all = drawMesh(box(4.0f), options, Progress());
+    EXPECT_NEAR(double(all.height) / all.width, (22.0 + 4.0) / 8.0, 0.05);
 }
 
 TEST(AtomModel, IsSeenBeforeTheSurfaceThroughItAndWhereItIsCut)

@@ -174,9 +174,10 @@ TEST_F(LayerTest, AtomsBehindAWallAreNotInItsShadow)
 {
     test::addBall(mesh, Vec3f(0.0f), 10.0f, gray);
     AtomModel model;
-    test::addBall(model.mesh, Vec3f(0.0f), 1.0f, gray);
-    model.mesh.parts = {{"ball", 0}};
-    model.instances = {{{unturned, {0, 0, 0}}, 0, "", gray}};
+    AtomUnit& unit = model.units.emplace_back();
+    unit.balls = {{0.0f, 0.0f, 0.0f, 1.0f}};
+    unit.ballColors = {gray};
+    model.copies = {{{unturned, {0, 0, 0}}, 0, "", gray}};
     options.model = std::make_shared<AtomModel>(model);
     options.opacity = 0.5;
     options.width = 210;

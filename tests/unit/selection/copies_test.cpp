@@ -84,6 +84,23 @@ TEST(Copies, AboutTheAxesOfTheIcosahedron)
     EXPECT_EQ(selectBalls(s, copies("")).placement.copies, 60u);
 }
 
+// The other copies are all but those that are chosen, by number or by fold.
+TEST(Copies, OthersAreTheRest)
+{
+    const Structure s = withAssembly(icosahedral());
+    for (const char* text : {"fold:5", "2,7-9"}) {
+        SelectOptions options = copies(text);
+        std::vector<int> all = selectBalls(s, options).placement.numbers;
+        const std::size_t chosen = all.size();
+        options.assembly.copies.others = true;
+        const std::vector<int> rest = selectBalls(s, options).placement.numbers;
+        EXPECT_EQ(rest.size(), 60 - chosen) << text;
+        all.insert(all.end(), rest.begin(), rest.end());
+        std::sort(all.begin(), all.end());
+        for (int i = 0; i < 60; ++i) EXPECT_EQ(all[std::size_t(i)], i + 1) << text;
+    }
+}
+
 TEST(Copies, AreThoseOfTheFirstOperatorWhereverItIs)
 {
     std::vector<Operator> operators = icosahedral();

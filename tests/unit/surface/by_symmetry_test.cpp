@@ -86,6 +86,57 @@ SelectOptions assembly(bool bySymmetry, const SurfaceOptions& surface)
     return options;
 }
 
+/// Puts the balls of the first atoms of a blob into one group, and the others into another.
+void groupBalls(BallSet& atoms)
+{
+    BallLabels& labels = *atoms.labels;
+    labels.groups = {{"first", 0, {}}, {"last", 0, {}}};
+    labels.groupOf.clear();
+    for (const Ball& ball : atoms.balls) labels.groupOf.push_back(ball.atom < 80 ? 0 : 1);
+    countBalls(atoms, labels.groupOf, labels.groups);
+}
+
+// Groups with surfaces of their own are those of the whole, and their borders are glued, each with
+// those of its own group.
+TEST(UnitParts, AreThoseOfTheWhole)
+{
+    for (const SurfaceKind kind : {SurfaceKind::Variational, SurfaceKind::VanDerWaals}) {
+        SurfaceOptions options;
+        options.kind = kind;
+        options.split = true;
+        Structure s = blob({7.0, 4.0, 6.0}, 6.5, 200, 7);
+        s.assemblies = {assemblyOf(dihedral(3))};
+        BallSet unit = selectBalls(s, assembly(true, options));
+        BallSet whole = selectBalls(s, assembly(false, options));
+        groupBalls(unit);
+        groupBalls(whole);
+        const MolecularSurface a = makeUnitSurface(unit, options), b = makeSurface(whole, options);
+        EXPECT_EQ(a.report.atoms, b.report.atoms);
+        ASSERT_EQ(a.report.parts.size(), 2u);
+        ASSERT_EQ(a.report.groups.size(), b.report.groups.size());
+        for (std::size_t p = 0; p < 2; ++p) {
+            const Report::Part &found = a.report.parts[p], &expected = b.report.parts[p];
+            EXPECT_EQ(found.name, expected.name);
+            EXPECT_EQ(found.atoms, expected.atoms);
+            EXPECT_EQ(a.report.groups[p].atoms, b.report.groups[p].atoms);
+            EXPECT_NEAR(found.surface.area, expected.surface.area, 1e-2 * expected.surface.area);
+            EXPECT_NEAR(found.surface.volume, expected.surface.volume,
+                        5e-3 * expected.surface.volume);
+        }
+        EXPECT_TRUE(a.report.surface.closed);
+        ASSERT_EQ(a.mesh.parts.size(), 2u);
+        ASSERT_TRUE(a.report.symmetry);
+        EXPECT_EQ(a.report.instances.size(), 2u * 6u);
+        ASSERT_FALSE(a.shared.empty());
+        for (const MolecularSurface::SharedVertex& shared : a.shared) {
+            const Motion& motion = unit.placement.instances[std::size_t(shared.motion)];
+            const Vec3d there = motion.placed(Vec3d(a.mesh.positions[shared.other]));
+            EXPECT_LT((there - Vec3d(a.mesh.positions[shared.vertex])).length(), 1e-3);
+        }
+        EXPECT_TRUE(checkTopology(makeSurface(unit, options).mesh, Progress()).closed);
+    }
+}
+
 class BySymmetry : public testing::TestWithParam<SurfaceKind>
 {
 };

@@ -26,6 +26,29 @@ RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, st
     if (!device_) throw std::bad_alloc();
     for (const auto& [first, end] : parts)
         parts_.push_back(sceneOf(mesh.positions, mesh.triangles, first, end));
+    place(instances);
+}
+
+RayScene::RayScene(const std::vector<const RayUnit*>& units,
+                   const std::vector<MeshInstance>& instances)
+{
+    device_ = rtcNewDevice(nullptr);
+    if (!device_) throw std::bad_alloc();
+    for (const RayUnit* unit : units) {
+        parts_.push_back(sceneOf([&](RTCScene scene) {
+            if (!unit->balls.empty()) addBalls(*unit, scene);
+            if (!unit->sticks.empty()) addSticks(*unit, scene);
+            const Mesh& mesh = unit->mesh;
+            if (!mesh.triangles.empty())
+                addTriangles(mesh.positions, mesh.triangles, 0, mesh.triangles.size(), scene);
+        }));
+    }
+    place(instances);
+}
+
+/// The scene of copies of the parts.
+void RayScene::place(const std::vector<MeshInstance>& instances)
+{
     scene_ = rtcNewScene(device_);
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const MeshInstance& instance = instances[i];
@@ -48,12 +71,28 @@ RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, st
     trimHeap(); // what it was built with
 }
 
-RTCScene RayScene::sceneOf(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles,
-                           std::size_t first, std::size_t end)
+RTCScene RayScene::sceneOf(const std::function<void(RTCScene)>& attach)
 {
     const RTCScene scene = rtcNewScene(device_);
     // No ray slips through between triangles.
     rtcSetSceneFlags(scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
+    attach(scene);
+    check();
+    rtcCommitScene(scene);
+    check();
+    return scene;
+}
+
+RTCScene RayScene::sceneOf(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles,
+                           std::size_t first, std::size_t end)
+{
+    return sceneOf([&](RTCScene scene) { addTriangles(positions, triangles, first, end, scene); });
+}
+
+void RayScene::addTriangles(const std::vector<openvdb::Vec3f>& positions,
+                            const Triangles& triangles, std::size_t first, std::size_t end,
+                            RTCScene scene)
+{
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree reads 16 bytes at the last vertex too, so it gets buffers of its own.
     void* own = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -64,13 +103,39 @@ RTCScene RayScene::sceneOf(const std::vector<openvdb::Vec3f>& positions, const T
     if (own) {
         std::memcpy(own, positions.data(), positions.size() * sizeof(openvdb::Vec3f));
         rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene, geometry);
+        rtcAttachGeometryByID(scene, geometry, RayUnit::Triangles);
     }
     rtcReleaseGeometry(geometry);
-    check();
-    rtcCommitScene(scene);
-    check();
-    return scene;
+}
+
+void RayScene::addBalls(const RayUnit& unit, RTCScene scene)
+{
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                               unit.balls.data(), 0, sizeof(unit.balls[0]), unit.balls.size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, RayUnit::Balls);
+    rtcReleaseGeometry(geometry);
+}
+
+/// Each stick is a curve of one straight piece.
+void RayScene::addSticks(const RayUnit& unit, RTCScene scene)
+{
+    const std::size_t count = unit.sticks.size();
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                               unit.sticks.data(), 0, sizeof(openvdb::Vec4f), 2 * count);
+    void* starts = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT,
+                                           sizeof(std::uint32_t), count);
+    void* joints = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_FLAGS, 0, RTC_FORMAT_UCHAR,
+                                           sizeof(std::uint8_t), count);
+    if (starts && joints) {
+        for (std::uint32_t i = 0; i < count; ++i) static_cast<std::uint32_t*>(starts)[i] = 2 * i;
+        std::memset(joints, 0, count); // no piece goes on in another
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, RayUnit::Sticks);
+    }
+    rtcReleaseGeometry(geometry);
 }
 
 RayScene::~RayScene()

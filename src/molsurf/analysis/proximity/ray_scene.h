@@ -2,17 +2,33 @@
 #pragma once
 
 /// @file
-/// A triangle mesh in Embree's hands.
+/// Triangle meshes, balls and sticks in Embree's hands.
 
 #include "molsurf/analysis/proximity/embree.h"
 #include "molsurf/kernel/mesh/mesh_instance.h"
 #include "molsurf/mesh.h"
 
+#include <openvdb/math/Vec4.h>
+
+#include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
 namespace molsurf
 {
+
+/// Shapes that copies repeat together. Balls and sticks are round, not of triangles.
+struct RayUnit {
+    enum Kind : unsigned { Triangles, Balls, Sticks }; ///< the numbers that a hit has
+
+    std::vector<openvdb::Vec4f> balls;                 ///< x, y, z and radius [Å]
+    std::vector<std::array<openvdb::Vec4f, 2>> sticks; ///< the same of both ends
+    Mesh mesh;
+
+    /// Tells whether there is nothing in it.
+    bool empty() const { return balls.empty() && sticks.empty() && mesh.triangles.empty(); }
+};
 
 /// A bounding volume hierarchy over the triangles of a mesh, numbered as there.
 class RayScene
@@ -33,6 +49,10 @@ public:
     /// @param[in] parts  triangles [first, end) of each
     RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& parts,
              const std::vector<MeshInstance>& instances);
+
+    /// The same of copies of units, as MeshInstance::part numbers them; they have to live as long.
+    /// A hit has RayUnit::Kind as its geometry, and the index of the shape among those.
+    RayScene(const std::vector<const RayUnit*>& units, const std::vector<MeshInstance>& instances);
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
@@ -40,8 +60,14 @@ public:
     RTCScene get() const { return scene_; }
 
 private:
+    RTCScene sceneOf(const std::function<void(RTCScene)>& attach);
     RTCScene sceneOf(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles,
                      std::size_t first, std::size_t end);
+    void addTriangles(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles,
+                      std::size_t first, std::size_t end, RTCScene scene);
+    void addBalls(const RayUnit& unit, RTCScene scene);
+    void addSticks(const RayUnit& unit, RTCScene scene);
+    void place(const std::vector<MeshInstance>& instances);
     void check() const;
 
     RTCDevice device_ = nullptr;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <string_view>
@@ -172,10 +173,15 @@ std::vector<std::size_t> chooseCopies(const Structure& structure, const Assembly
                                       const CopyChoice& choice, const Vec3d& centroid)
 {
     const std::vector<Operator> operators = operatorsOf(assembly);
-    std::vector<std::size_t> chosen;
-    if (choice.all()) {
-        chosen.resize(operators.size());
-        std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+    std::vector<std::size_t> chosen, all(operators.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    if (choice.all()) return all;
+    if (choice.others) {
+        CopyChoice left = choice;
+        left.others = false;
+        const std::vector<std::size_t> taken = chooseCopies(structure, assembly, left, centroid);
+        std::set_difference(all.begin(), all.end(), taken.begin(), taken.end(),
+                            std::back_inserter(chosen));
         return chosen;
     }
     for (const auto& [first, last] : choice.ranges) {

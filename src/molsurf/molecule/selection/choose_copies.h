@@ -35,8 +35,8 @@ const RotationAxis* nearestAxis(const Symmetry& symmetry, int fold, const openvd
 /// rise 1.41 Å, twist 22.03 degrees", "no rotation axis".
 std::string describeSymmetry(const Symmetry& symmetry);
 
-/// Indices of the chosen copies, ascending, each once; copies are counted part by part of the
-/// assembly.
+/// Indices of the chosen copies, or with CopyChoice::others of all but these, ascending, each once;
+/// copies are counted part by part of the assembly.
 ///
 /// With a fold these are copy 1 and those that the n-fold axis makes of it; of several such axes
 /// the one nearest to the molecule of copy 1. If the assembly has further parts (chains with

@@ -30,6 +30,16 @@ inline SelectOptions besideSurface(const SelectOptions& surface, const std::stri
     return options;
 }
 
+/// The options of the copies of an assembly that a surface leaves out: each distinct one once.
+/// @param[in] select  empty: their atoms are chosen as the surface's
+inline SelectOptions ofOtherCopies(const SelectOptions& surface, const std::string& select)
+{
+    SelectOptions options = select.empty() ? surface : besideSurface(surface, select);
+    options.assembly.copies.others = true;
+    options.assembly.instances = true;
+    return options;
+}
+
 /// The mean of the centres [Å].
 inline openvdb::Vec3d middleOf(const BallSet& atoms)
 {

@@ -5,15 +5,17 @@
 #include "molsurf/kernel/balls/ball_index.h"
 #include "molsurf/kernel/core/orthonormal_basis.h"
 #include "molsurf/kernel/core/strings.h"
+#include "molsurf/molecule/selection/groups.h"
+#include "molsurf/molecule/selection/subset.h"
 #include "molsurf/molecule/structure/element.h"
 #include "molsurf/molecule/structure/residue_bonds.h"
 #include "molsurf/molecule/structure/text_fields.h"
 #include "molsurf/show/color/palette.h"
-#include "molsurf/show/io/part_ranges.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -25,9 +27,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-enum Part : std::size_t { BallPart, StickPart, TubePart };
-
-constexpr int circle = 24; // corners
+constexpr int circle = 24; // corners of a tube
 constexpr Color white = {255, 255, 255};
 constexpr Color carbonColor = {242, 184, 60};
 
@@ -50,36 +50,35 @@ void joinRings(Mesh& mesh)
     }
 }
 
-/// Adds a ring of vertices about a center, with normals outward in its plane, plus `tilt`.
-void addRing(const Vec3d& center, const Vec3d& u, const Vec3d& v, const Vec3d& tilt, Mesh& mesh)
+/// Adds a ring of vertices about a center, with normals outward in its plane.
+void addRing(const Vec3d& center, const Vec3d& u, const Vec3d& v, const Color& color, Mesh& mesh)
 {
     for (int k = 0; k < circle; ++k) {
         const Vec3d way = onCircle(k, u, v);
         mesh.positions.emplace_back(center + way);
-        mesh.normals.emplace_back((way + tilt).unit());
-        mesh.colors.push_back(white);
+        mesh.normals.emplace_back(way.unit());
+        mesh.colors.push_back(color);
     }
+}
+
+openvdb::Vec4f ballAt(const Vec3d& x, double radius)
+{
+    return {float(x[0]), float(x[1]), float(x[2]), float(radius)};
 }
 
 void addBall(const Vec3d& at, double radius, const Color& color, AtomModel& model)
 {
-    model.instances.push_back(
-        {{{{{radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}}, at}, BallPart, "", color});
+    AtomUnit& unit = model.units.back();
+    unit.balls.push_back(ballAt(at, radius));
+    unit.ballColors.push_back(color);
 }
 
-/// Adds a copy of the stick, which goes from 0 to 1 along z with radius 1: the columns of its
-/// matrix take x and y to two radii, and z to the whole way.
 void addStick(const Vec3d& from, const Vec3d& to, double radius, const Color& color,
               AtomModel& model)
 {
-    const Vec3d way = to - from;
-    const auto [u, v] = perpendicular(way.unit());
-    MeshInstance stick{{{}, from}, StickPart, "", color};
-    for (std::size_t row = 0; row < 3; ++row) {
-        const int i = int(row);
-        stick.rotation[row] = {radius * u[i], radius * v[i], way[i]};
-    }
-    model.instances.push_back(stick);
+    AtomUnit& unit = model.units.back();
+    unit.sticks.push_back({ballAt(from, radius), ballAt(to, radius)});
+    unit.stickColors.push_back(color);
 }
 
 /// The bonds that tables and files know of atoms.
@@ -192,12 +191,13 @@ std::vector<Bond> bondsOf(const ShownAtoms& shown)
     return bonds;
 }
 
-/// Elements by their colours, but carbon: it has the colour of its chain, or one that differs from
-/// a grey surface.
+/// The colours that the atoms have; else elements by theirs, but carbon: it has the colour of its
+/// chain, or one that differs from a grey surface.
 std::vector<Color> atomColors(const ShownAtoms& shown, const Progress& progress, AtomModel& model)
 {
     const BallSet& atoms = shown.atoms;
     const BallLabels& labels = *atoms.labels;
+    if (!atoms.colors.empty()) return atoms.colors;
     std::vector<Color> colors = ballColors(atoms, ColorBy::Element, progress);
     const std::vector<Color> ofChains =
         shown.byChain ? chainColors(atoms, progress) : std::vector<Color>();
@@ -340,7 +340,7 @@ std::array<Vec3d, 2> onCurve(const std::array<Vec3d, 4>& p, double t)
 
 /// A tube through at least two points, with round ends: rings along the cubics between them, each
 /// turned from the one before by parallel transport. Beyond the ends the curve goes on straight.
-void addTube(const std::vector<Vec3d>& points, const Color& color, AtomModel& model)
+void addTube(const std::vector<Vec3d>& points, const std::vector<Color>& colors, AtomModel& model)
 {
     constexpr int pieces = 8; // between two points
     const std::size_t last = points.size() - 1;
@@ -357,12 +357,13 @@ void addTube(const std::vector<Vec3d>& points, const Color& color, AtomModel& mo
         const Vec3d way = along.lengthSqr() > 0.0 ? along.unit() : Vec3d(0, 0, 1);
         u -= u.dot(way) * way; // the last ring's, at right angles to the way
         u = u.lengthSqr() > 1e-6 ? u.unit() : perpendicular(way)[0];
-        addRing(at, tubeRadius * u, tubeRadius * way.cross(u), Vec3d(0.0), model.mesh);
-        std::fill(model.mesh.colors.end() - circle, model.mesh.colors.end(), color);
-        if (n > 0) joinRings(model.mesh);
+        Mesh& mesh = model.units.back().mesh;
+        const Color& color = colors[(n + pieces / 2) / pieces]; // of the nearest point
+        addRing(at, tubeRadius * u, tubeRadius * way.cross(u), color, mesh);
+        if (n > 0) joinRings(mesh);
     }
-    addBall(points.front(), tubeRadius, color, model);
-    addBall(points.back(), tubeRadius, color, model);
+    addBall(points.front(), tubeRadius, colors.front(), model);
+    addBall(points.back(), tubeRadius, colors.back(), model);
 }
 
 /// 0 for the CA of an amino acid, 1 for the P of a nucleotide, else -1.
@@ -378,17 +379,20 @@ void addTubes(const ShownAtoms& shown, const Progress& progress, AtomModel& mode
 {
     const BallSet& atoms = shown.atoms;
     constexpr double farthest[] = {4.4, 8.0}; // of CA, of P [Å]
-    const std::vector<Color> colors = chainColors(atoms, progress);
+    const std::vector<Color> ofChains =
+        atoms.colors.empty() ? chainColors(atoms, progress) : std::vector<Color>();
     std::vector<Vec3d> points;
+    std::vector<Color> colors; // of the points
     std::int32_t chain = -1;
     int kind = 0;
     const auto end = [&] {
         if (points.size() > 1) {
-            const Color& color = colors[std::size_t(chain)];
-            addTube(points, color, model);
-            addEntry({atoms.labels->chains[std::size_t(chain)], color}, model.chains);
+            addTube(points, colors, model);
+            if (!ofChains.empty())
+                addEntry({atoms.labels->chains[std::size_t(chain)], colors[0]}, model.chains);
         }
         points.clear();
+        colors.clear();
     };
     for (std::size_t i = 0; i < atoms.balls.size(); ++i) {
         const int found = backboneKind(atoms, i);
@@ -401,28 +405,30 @@ void addTubes(const ShownAtoms& shown, const Progress& progress, AtomModel& mode
         chain = own;
         kind = found;
         points.push_back(x);
+        colors.push_back(ofChains.empty() ? atoms.colors[i] : ofChains[std::size_t(own)]);
     }
     end();
 }
 
-// Measured on 4V5A (289,001 atoms of polymers), with what Embree takes.
-constexpr double bytesPerCopy = 1300.0, bytesPerBackboneAtom = 50e3;
-constexpr double copiesPerBondedAtom = 3.1;
+// Measured, with what Embree takes, on 289,001 atoms, by vdb_molsurf 4v5a.cif.gz --voxel 2
+// --select AA/1-9 --show polymer=spheres, or sticks, orders, tube; and on 10^5 copies.
+constexpr double bytesPerBall = 150.0, bytesPerBondedAtom = 400.0, bytesPerCopy = 1300.0;
+constexpr double bytesPerBackboneAtom = 50e3;
 
 double bytesOfBonded(const BallSet& atoms)
 {
-    return bytesPerCopy * copiesPerBondedAtom * double(atoms.balls.size());
+    return bytesPerBondedAtom * double(atoms.balls.size());
 }
 
 double bytesOfOrders(const BallSet& atoms)
 {
-    constexpr double more = 2.5; // of all bonds double or aromatic
+    constexpr double more = 2.0; // of all bonds double or aromatic
     return more * bytesOfBonded(atoms);
 }
 
 double bytesOfSpheres(const BallSet& atoms)
 {
-    return bytesPerCopy * double(atoms.balls.size());
+    return bytesPerBall * double(atoms.balls.size());
 }
 
 double bytesOfTubes(const BallSet& atoms)
@@ -430,28 +436,6 @@ double bytesOfTubes(const BallSet& atoms)
     std::size_t count = 0;
     for (std::size_t i = 0; i < atoms.balls.size(); ++i) count += backboneKind(atoms, i) >= 0;
     return bytesPerBackboneAtom * double(count);
-}
-
-/// The parts in the order of Part: a ball of radius 1, a stick along z of radius and length 1, and
-/// a tube without triangles yet.
-AtomModel emptyModel()
-{
-    AtomModel model;
-    Mesh& mesh = model.mesh;
-    mesh.parts.push_back({"ball", 0});
-    constexpr int rings = circle / 2;
-    for (int j = 0; j <= rings; ++j) {
-        const double angle = M_PI * j / rings, r = std::max(std::sin(angle), 1e-6);
-        const Vec3d z(0, 0, -std::cos(angle));
-        addRing(z, Vec3d(r, 0, 0), Vec3d(0, r, 0), z, mesh);
-        if (j > 0) joinRings(mesh);
-    }
-    mesh.parts.push_back({"stick", mesh.triangles.size()});
-    for (const double z : {0.0, 1.0})
-        addRing(Vec3d(0, 0, z), Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0.0), mesh);
-    joinRings(mesh);
-    mesh.parts.push_back({"tube", mesh.triangles.size()});
-    return model;
 }
 
 } // namespace
@@ -490,6 +474,24 @@ std::string styleMeant(const std::string& text, const std::string& word, const V
     return bare ? " [hint: `show` " + inQuotes(text + "=sticks") + "]" : near;
 }
 
+/// Takes a word behind that of a style.
+void takeAddition(const std::string& word, const std::string& text, ShowRule& rule)
+{
+    const std::pair<const char*, bool ShowRule::*> switches[] = {{"golden", &ShowRule::golden},
+                                                                 {"others", &ShowRule::others}};
+    for (const auto& [name, member] : switches)
+        if (word == name) {
+            rule.*member = true;
+            return;
+        }
+    rule.color = parseColor(word);
+    if (!rule.color)
+        throw Error(ErrorKind::Usage, "`show`: expected golden, others or a colour behind " +
+                                          std::string(rule.style->word) + ", got " +
+                                          inQuotes(word) + " in " + inQuotes(text) +
+                                          didYouMean(word, {"golden", "others"}, {}));
+}
+
 } // namespace
 
 ShowRule parseShow(const std::string& text, const std::vector<std::string>& others)
@@ -497,12 +499,9 @@ ShowRule parseShow(const std::string& text, const std::vector<std::string>& othe
     const std::size_t equals = text.rfind('=');
     const bool named = equals != std::string::npos;
     ShowRule rule{named ? text.substr(0, equals) : "", nullptr};
-    std::string word = lowered(named ? text.substr(equals + 1) : text);
-    constexpr std::string_view golden = ",golden";
-    rule.golden = word.size() > golden.size() &&
-                  word.compare(word.size() - golden.size(), golden.size(), golden) == 0;
-    if (rule.golden) word.resize(word.size() - golden.size());
-    std::vector<std::string> words;
+    const std::string tail = lowered(named ? text.substr(equals + 1) : text);
+    const std::string word = tail.substr(0, tail.find(','));
+    Values words;
     for (const AtomStyle& style : atomStyles()) {
         if (word == style.word) rule.style = &style;
         words.push_back(style.word);
@@ -511,43 +510,101 @@ ShowRule parseShow(const std::string& text, const std::vector<std::string>& othe
         throw Error(ErrorKind::Usage, "`show`: expected " + joinWords(words, ", ") +
                                           ", or SELECTION= and one of them, got " + inQuotes(text) +
                                           styleMeant(text, word, named ? Values() : others, words));
+    for (std::size_t end = word.size(); end < tail.size();) {
+        const std::size_t begin = end + 1;
+        end = std::min(tail.find(',', begin), tail.size());
+        takeAddition(tail.substr(begin, end - begin), text, rule);
+    }
     return rule;
 }
 
 double bytesOfModel(const std::vector<ShownAtoms>& shown)
 {
     double bytes = 0.0;
-    for (const ShownAtoms& some : shown) bytes += some.rule.style->bytesOf(some.atoms);
+    for (const ShownAtoms& some : shown)
+        bytes += some.rule.style->bytesOf(some.atoms) +
+                 bytesPerCopy * double(some.atoms.placement.instances.size());
     return bytes;
 }
 
+namespace
+{
+
+/// Adds a unit if it has something in it, and its copies.
+void addUnit(const ShownAtoms& some, const std::vector<MeshInstance>& copies,
+             const Progress& progress, AtomModel& model)
+{
+    const std::size_t place = model.units.size();
+    model.units.emplace_back();
+    some.rule.style->add(some, progress, model);
+    if (model.units.back().empty()) return model.units.pop_back();
+    for (const MeshInstance& copy : copies) {
+        model.copies.push_back(copy);
+        model.copies.back().part = place;
+    }
+}
+
+/// A prototype with its names and colours.
+BallSet prototypeOf(const BallSet& atoms, std::size_t p)
+{
+    const auto [begin, end] = atoms.prototype(p);
+    std::vector<std::size_t> which(end - begin);
+    std::iota(which.begin(), which.end(), begin);
+    BallSet out = subset(atoms, which);
+    out.labels->chainColors = atoms.labels->chainColors;
+    const BallNames& all = *atoms.names;
+    BallNames& names = out.names.emplace();
+    names.residues = all.residues;
+    for (const std::size_t i : which) {
+        names.residueOf.push_back(all.residueOf[i]);
+        names.atoms.push_back(all.atoms[i]);
+    }
+    return out;
+}
+
+/// Adds atoms as they are, or each prototype of an assembly once, with its copies.
+void addAtoms(const ShownAtoms& some, const Progress& progress, AtomModel& model)
+{
+    const BallSet& atoms = some.atoms;
+    if (atoms.placement.isWhole())
+        return addUnit(some, {{Motion::identity(), 0, "", white}}, progress, model);
+    const std::vector<Color> colors =
+        some.rule.byCopy ? instanceColors(atoms, progress) : std::vector<Color>();
+    for (std::size_t p = 0; p < atoms.placement.prototypes(); ++p) {
+        const ShownAtoms part{prototypeOf(atoms, p), some.rule, some.bonds, some.byChain};
+        std::vector<MeshInstance> copies;
+        for (std::size_t i = 0; i < atoms.placement.instances.size(); ++i) {
+            const Instance& copy = atoms.placement.instances[i];
+            const Color& color = colors.empty() ? white : colors[i];
+            if (copy.part == p) copies.push_back({copy, p, "", color});
+        }
+        addUnit(part, copies, progress, model);
+    }
+}
+
+} // namespace
+
 AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progress)
 {
-    AtomModel model = emptyModel();
-    const std::size_t without = model.mesh.triangles.size();
+    AtomModel model;
     for (const ShownAtoms& some : shown) {
+        const std::size_t before = model.units.size();
+        addAtoms(some, progress, model);
+        if (model.units.size() > before) continue;
         const ShowRule& rule = some.rule;
-        const std::size_t before = model.instances.size();
-        rule.style->add(some, progress, model);
-        if (model.instances.size() == before)
-            throw Error(ErrorKind::Input, "`show` " +
-                                              (rule.select.empty() ? "" : rule.select + "=") +
-                                              rule.style->word + ": there is nothing to show");
+        throw Error(ErrorKind::Input, "`show` " + (rule.select.empty() ? "" : rule.select + "=") +
+                                          rule.style->word + ": there is nothing to show");
     }
-    if (model.mesh.triangles.size() > without)
-        model.instances.push_back({Motion::identity(), TubePart, "", white});
     return model;
 }
 
 void addBodies(const Bodies& bodies, AtomModel& model)
 {
-    const bool throughLight = !model.instances.empty();
+    const bool throughLight = !model.units.empty();
     model.bodies = bodies;
     if (throughLight) return;
-    model.mesh = std::exchange(model.bodies.mesh, {});
-    const std::vector<PartRange> parts = partRanges(model.mesh, "");
-    for (std::size_t place = 0; place < parts.size(); ++place)
-        model.instances.push_back({Motion::identity(), place, parts[place].name, white});
+    model.units.emplace_back().mesh = std::exchange(model.bodies.mesh, {});
+    model.copies.push_back({Motion::identity(), 0, "", white});
 }
 
 } // namespace molsurf

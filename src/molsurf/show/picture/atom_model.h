@@ -4,6 +4,7 @@
 /// @file
 /// Atoms as balls, sticks and tubes, to be seen beside a surface.
 
+#include "molsurf/analysis/proximity/ray_scene.h"
 #include "molsurf/atoms.h"
 #include "molsurf/kernel/mesh/mesh_instance.h"
 #include "molsurf/mesh.h"
@@ -11,6 +12,7 @@
 #include "molsurf/show/color/legend.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,18 +28,24 @@ struct Bodies {
     std::vector<LegendEntry> pockets, tunnels;
 };
 
-/// Balls, sticks and tubes: copies of parts of a mesh, which may be stretched.
+/// Balls, sticks and tubes, as meshes with colours, that copies repeat together.
+struct AtomUnit : RayUnit {
+    std::vector<Color> ballColors, stickColors; ///< one each
+};
+
+/// Atoms that are seen beside a surface. What the copies of an assembly have is held once.
 struct AtomModel {
-    Mesh mesh; ///< a ball and a stick of radius 1, and the tubes as they are
-    std::vector<MeshInstance> instances;
+    std::vector<AtomUnit> units;               ///< none of them empty
+    std::vector<MeshInstance> copies;          ///< of units
     std::vector<LegendEntry> chains, elements; ///< of tubes, and of balls and sticks
-    Bodies bodies; ///< with a mesh if they let light through; else `mesh` has it
+    Bodies bodies; ///< with a mesh if they let light through; else it is a unit
 };
 
 /// A way to show atoms.
 struct AtomStyle {
     const char* word; ///< of the command line
     const char* help;
+    /// Adds to the last unit, and to the legends.
     void (*add)(const ShownAtoms& shown, const Progress& progress, AtomModel& model);
     /// About what the atoms take while they are drawn [byte].
     double (*bytesOf)(const BallSet& atoms);
@@ -51,9 +59,15 @@ struct ShowRule {
     std::string select; ///< as SelectOptions::select; empty: all
     const AtomStyle* style = nullptr;
     bool golden = false; ///< whether carbon is golden where there are several chains, too
+    bool others = false; ///< whether the atoms are of the copies that the surface leaves out; they
+                         ///< have its colours
+    std::optional<Color> color{}; ///< of all atoms; none: as they are
+    bool byCopy = false; ///< whether the copies of an assembly have colours of their own, which
+                         ///< multiply those of the atoms
 };
 
-/// "sticks", or "(HEM)=sticks" for some of the atoms; "sticks,golden" with golden carbon.
+/// "sticks", or "(HEM)=sticks" for some of the atoms; behind commas "golden", "others" or a colour,
+/// as ShowRule has them.
 /// @param[in] others  further words that an option takes, for the hint of an error
 /// @throws Error(ErrorKind::Usage) if it is neither
 ShowRule parseShow(const std::string& text, const std::vector<std::string>& others = {});
@@ -69,8 +83,8 @@ struct ShownAtoms {
 /// About what the model of these atoms takes while it is drawn [byte].
 double bytesOfModel(const std::vector<ShownAtoms>& shown);
 
-/// Carbon is golden or has the colour of its chain, other elements have their colours (CPK), tubes
-/// that of their chain.
+/// Atoms have their BallSet::colors. Without any carbon is golden or has the colour of its chain,
+/// other elements have their colours (CPK), tubes that of their chain.
 /// @throws Error(ErrorKind::Input) if a rule has nothing to show, as a tube without a backbone
 AtomModel atomModel(const std::vector<ShownAtoms>& shown, const Progress& progress);
 

@@ -62,6 +62,8 @@ struct DrawOptions {
     /// Points whose principal axes make the automatic view, so that it is the same for any mesh of
     /// them; empty: the vertices.
     std::vector<openvdb::Vec3d> about{};
+    /// The same of each part that `instances` place.
+    std::vector<std::vector<openvdb::Vec3d>> aboutParts{};
     Color background = {255, 255, 255};
     bool depthCue = false;               ///< whether distant parts fade to the background
     bool transparent = false;            ///< there is nothing behind the surface

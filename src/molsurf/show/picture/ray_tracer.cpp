@@ -84,6 +84,22 @@ Shapes::Shapes(const Mesh& shape, const std::vector<MeshInstance>& copies, RaySc
 {
 }
 
+namespace
+{
+
+std::vector<const RayUnit*> unitsOf(const AtomModel& model)
+{
+    std::vector<const RayUnit*> units;
+    for (const AtomUnit& unit : model.units) units.push_back(&unit);
+    return units;
+}
+
+} // namespace
+
+AtomShapes::AtomShapes(const AtomModel& atoms) : model(atoms), scene(unitsOf(atoms), atoms.copies)
+{
+}
+
 Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
                const DrawOptions& options)
     : view_(view), style_(style), options_(options),
@@ -95,7 +111,7 @@ Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
       owners_(options.borders ? mesh.positions.size() : 0)
 {
     for (auto& owner : owners_) owner.store(unknown, std::memory_order_relaxed);
-    if (options.model) atoms_.emplace(options.model->mesh, options.model->instances);
+    if (options.model) atoms_.emplace(*options.model);
     static const std::vector<MeshInstance> asTheyAre;
     if (options.model && !options.model->bodies.mesh.triangles.empty())
         bodies_.emplace(options.model->bodies.mesh, asTheyAre);
@@ -158,14 +174,14 @@ Tracer::EyeRays Tracer::from(const std::array<int, 2>* samples,
     return out;
 }
 
-RTCRayHit4 Tracer::meet(const Shapes& shapes, const EyeRays& eye) const
+RTCRayHit4 Tracer::meet(const RayScene& scene, const EyeRays& eye) const
 {
     alignas(16) RTCRayHit4 rays{};
     for (std::size_t s = 0; s < packet; ++s) {
         setRay(rays.ray, s, eye.from[s], -view_.toEye, view_.far - view_.low + 2.0);
         rays.hit.geomID[s] = rays.hit.instID[0][s] = RTC_INVALID_GEOMETRY_ID;
     }
-    intersect(eye.valid.data(), shapes.scene.get(), rays);
+    intersect(eye.valid.data(), scene.get(), rays);
     return rays;
 }
 
@@ -192,9 +208,9 @@ void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) cons
         for (std::size_t s = 0; s < packet; ++s)
             if (front && !options_.showBehind && bodyPiece[s] != Seen::body)
                 wallDepths[s] = Seen::nothing; // behind the nearest wall there is no other
-        const auto send = [&](const Shapes& shapes, const auto& begins, const auto& seenOf) {
+        const auto send = [&](const auto& shapes, const auto& begins, const auto& seenOf) {
             const EyeRays eye = from(at, begins);
-            const RTCRayHit4 hits = meet(shapes, eye);
+            const RTCRayHit4 hits = meet(shapes.scene, eye);
             for (std::size_t s = 0; s < count; ++s) {
                 if (hits.hit.geomID[s] == RTC_INVALID_GEOMETRY_ID) continue;
                 const Seen found = seenOf(hits, s, eye.from[s]);
@@ -326,15 +342,24 @@ Seen Tracer::facing(float depth, Vec3d normal) const
 
 Seen Tracer::atomOf(const RTCRayHit4& rays, std::size_t s, const Vec3d& from) const
 {
-    const MeshInstance& copy = *atoms_->copyOf(rays, s);
-    const Mesh& mesh = atoms_->mesh;
-    const auto& t = atoms_->triangleOf(rays, s);
-    const Vec3f weights(1.0f - rays.hit.u[s] - rays.hit.v[s], rays.hit.u[s], rays.hit.v[s]);
-    const Vec3f normal = weights[0] * mesh.normals[t[0]] + weights[1] * mesh.normals[t[1]] +
-                         weights[2] * mesh.normals[t[2]];
+    const MeshInstance& copy = atoms_->model.copies[rays.hit.instID[0][s]];
+    const AtomUnit& unit = atoms_->model.units[copy.part];
+    const std::size_t shape = rays.hit.primID[s];
+    Vec3f normal(rays.hit.Ng_x[s], rays.hit.Ng_y[s], rays.hit.Ng_z[s]);
+    Color color;
+    if (rays.hit.geomID[s] == RayUnit::Triangles) {
+        const auto& t = unit.mesh.triangles[shape];
+        const Vec3f weights(1.0f - rays.hit.u[s] - rays.hit.v[s], rays.hit.u[s], rays.hit.v[s]);
+        normal = weights[0] * unit.mesh.normals[t[0]] + weights[1] * unit.mesh.normals[t[1]] +
+                 weights[2] * unit.mesh.normals[t[2]];
+        color = unit.mesh.colors[t[0]];
+    } else {
+        const bool isBall = rays.hit.geomID[s] == RayUnit::Balls;
+        color = isBall ? unit.ballColors[shape] : unit.stickColors[shape];
+    }
     const double start = from.dot(view_.toEye) - view_.center.dot(view_.toEye);
     Seen out = facing(float(start - double(rays.ray.tfar[s])), copy.turned(Vec3d(normal)));
-    out.color = multiplied(mesh.colors[t[0]], copy.color);
+    out.color = multiplied(color, copy.color);
     out.piece = Seen::atom;
     return out;
 }

@@ -119,6 +119,14 @@ struct Shapes {
     RayScene scene;
 };
 
+/// Atoms in Embree's hands.
+struct AtomShapes {
+    explicit AtomShapes(const AtomModel& atoms);
+
+    const AtomModel& model;
+    RayScene scene;
+};
+
 /// Sends rays. They go in packets of 4 and of 8, a quarter faster than one by one.
 class Tracer
 {
@@ -156,7 +164,7 @@ private:
     void lookBetween(int y, Layer& layer) const;
     std::optional<Seen> between(const Layer& layer, int column, int row) const;
     EyeRays from(const std::array<int, 2>* samples, const std::array<float, packet>& depths) const;
-    RTCRayHit4 meet(const Shapes& shapes, const EyeRays& eye) const;
+    RTCRayHit4 meet(const RayScene& scene, const EyeRays& eye) const;
     PixelLight lightOf(int x, int y, bool isFirst, const Layer& layer) const;
     Seen hitOf(const RTCRayHit4& rays, std::size_t s, const openvdb::Vec3d& from) const;
     Seen atomOf(const RTCRayHit4& rays, std::size_t s, const openvdb::Vec3d& from) const;
@@ -177,7 +185,8 @@ private:
     const PictureStyle& style_;
     const DrawOptions& options_;
     Shapes surface_;
-    std::optional<Shapes> atoms_, bodies_;
+    std::optional<AtomShapes> atoms_;
+    std::optional<Shapes> bodies_;
     double top_; ///< depth where rays begin [Å]
     bool clips_; ///< whether that cuts the mesh
     openvdb::Vec3d lamp_;

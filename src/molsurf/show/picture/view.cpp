@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace molsurf
@@ -23,14 +24,20 @@ constexpr double border = 1.04; // width of the picture over that of the molecul
 
 constexpr int manyDirections = 400;
 
+/// One of some directions, by a golden spiral.
+Vec3f spiralWay(int k, int directions)
+{
+    const double z = 1.0 - (2.0 * k + 1.0) / directions, r = std::sqrt(1.0 - z * z);
+    const double angle = 2.0 * M_PI * 0.6180339887498949 * k;
+    return {float(r * std::cos(angle)), float(r * std::sin(angle)), float(z)};
+}
+
 /// The vertices of a part that lie farthest out in some directions.
 std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part, int directions)
 {
     std::vector<Vec3d> out;
-    for (int k = 0; k < directions; ++k) { // by a golden spiral
-        const double z = 1.0 - (2.0 * k + 1.0) / directions, r = std::sqrt(1.0 - z * z);
-        const double angle = 2.0 * M_PI * 0.6180339887498949 * k;
-        const Vec3f way(float(r * std::cos(angle)), float(r * std::sin(angle)), float(z));
+    for (int k = 0; k < directions; ++k) {
+        const Vec3f way = spiralWay(k, directions);
         std::size_t farthest = part.firstVertex;
         for (std::size_t v = part.firstVertex; v < part.vertexEnd; ++v) {
             if (mesh.positions[v].dot(way) > mesh.positions[farthest].dot(way)) farthest = v;
@@ -40,68 +47,123 @@ std::vector<Vec3d> outermost(const Mesh& mesh, const PartRange& part, int direct
     return out;
 }
 
-/// Adds the outermost points of copies.
-void addSpan(const Mesh& mesh, const std::vector<MeshInstance>& instances, int directions,
-             std::vector<Vec3d>& out)
+/// Calls a function for each of some points, which need not lie in memory: copies have many.
+using Points = std::function<void(const std::function<void(const Vec3d&)>&)>;
+
+Points pointsOf(const std::vector<Vec3d>& points)
 {
-    std::vector<std::vector<Vec3d>> outer;
-    for (const PartRange& part : partRanges(mesh, ""))
-        outer.push_back(outermost(mesh, part, directions));
-    for (const MeshInstance& instance : instances) {
-        for (const Vec3d& x : outer[instance.part]) out.push_back(instance.placed(x));
-    }
+    return [&points](const auto& f) { std::for_each(points.begin(), points.end(), f); };
 }
 
-/// Points that span what is shown: the vertices, or of copies the outermost ones, and atoms.
+/// A ball that has to be in the picture; of a vertex the radius is 0.
+struct Extent {
+    Vec3d center;
+    double radius;
+};
+
+/// The ends of the shapes of a unit.
+std::vector<Extent> extentsOf(const AtomUnit& unit)
+{
+    std::vector<Extent> out;
+    const auto add = [&](const openvdb::Vec4f& ball) {
+        out.push_back({Vec3d(ball[0], ball[1], ball[2]), double(ball[3])});
+    };
+    for (const openvdb::Vec4f& ball : unit.balls) add(ball);
+    for (const auto& ends : unit.sticks)
+        for (const openvdb::Vec4f& end : ends) add(end);
+    for (const Vec3f& p : unit.mesh.positions) out.push_back({Vec3d(p), 0.0});
+    return out;
+}
+
+/// Those that reach farthest out in some directions.
+std::vector<Extent> outermost(const std::vector<Extent>& all)
+{
+    std::vector<std::size_t> far;
+    for (int k = 0; k < manyDirections; ++k) {
+        const Vec3d way(spiralWay(k, manyDirections));
+        const auto reach = [&](const Extent& x) { return x.center.dot(way) + x.radius; };
+        far.push_back(std::size_t(std::max_element(all.begin(), all.end(),
+                                                   [&](const Extent& a, const Extent& b) {
+                                                       return reach(a) < reach(b);
+                                                   }) -
+                                  all.begin()));
+    }
+    std::sort(far.begin(), far.end());
+    far.erase(std::unique(far.begin(), far.end()), far.end());
+    std::vector<Extent> out;
+    for (const std::size_t i : far) out.push_back(all[i]);
+    return out;
+}
+
+/// What spans that which is shown: the vertices, or of copies the outermost ones, and atoms.
 class Span
 {
 public:
-    Span(const Mesh& mesh, const DrawOptions& options)
-        : vertices_(options.instances.empty() ? &mesh.positions : nullptr)
+    Span(const Mesh& mesh, const DrawOptions& options) : mesh_(mesh), options_(options)
     {
-        if (!vertices_) addSpan(mesh, options.instances, manyDirections, others_);
-        const AtomModel* model = options.model.get();
-        if (!model) return;
-        const int directions = // fewer of many atoms, for some 200000 points in all
-            std::clamp(int(200000 / model->instances.size()), 20, manyDirections);
-        addSpan(model->mesh, model->instances, directions, others_);
-        for (const Vec3f& p : model->bodies.mesh.positions) others_.emplace_back(p);
+        if (!options.instances.empty())
+            for (const PartRange& part : partRanges(mesh, ""))
+                parts_.push_back(outermost(mesh, part, manyDirections));
+        if (!options.model) return;
+        std::vector<std::size_t> copies(options.model->units.size(), 0);
+        for (const MeshInstance& copy : options.model->copies) ++copies[copy.part];
+        for (std::size_t u = 0; u < copies.size(); ++u) {
+            units_.push_back(extentsOf(options.model->units[u]));
+            if (copies[u] > 1) units_[u] = outermost(units_[u]);
+        }
     }
 
+    /// Calls f(center, radius).
     template<typename F>
     void forEach(const F& f) const
     {
-        if (vertices_)
-            for (const Vec3f& p : *vertices_) f(Vec3d(p));
-        for (const Vec3d& p : others_) f(p);
-    }
-
-    std::vector<Vec3d> points() const
-    {
-        std::vector<Vec3d> out;
-        forEach([&](const Vec3d& p) { out.push_back(p); });
-        return out;
+        if (options_.instances.empty())
+            for (const Vec3f& p : mesh_.positions) f(Vec3d(p), 0.0);
+        for (const MeshInstance& copy : options_.instances)
+            for (const Vec3d& x : parts_[copy.part]) f(copy.placed(x), 0.0);
+        if (!options_.model) return;
+        for (const MeshInstance& copy : options_.model->copies)
+            for (const auto& [x, radius] : units_[copy.part]) f(copy.placed(x), radius);
+        for (const Vec3f& p : options_.model->bodies.mesh.positions) f(Vec3d(p), 0.0);
     }
 
 private:
-    const std::vector<Vec3f>* vertices_;
-    std::vector<Vec3d> others_;
+    const Mesh& mesh_;
+    const DrawOptions& options_;
+    std::vector<std::vector<Vec3d>> parts_;  ///< of the mesh, if there are copies
+    std::vector<std::vector<Extent>> units_; ///< of the model
 };
+
+/// The points whose principal axes make the automatic view.
+Points aboutOf(const Span& span, const DrawOptions& options)
+{
+    if (!options.about.empty()) return pointsOf(options.about);
+    if (options.aboutParts.empty())
+        return [&span](const auto& f) { span.forEach([&](const Vec3d& x, double) { f(x); }); };
+    return [&options](const auto& f) {
+        for (const MeshInstance& copy : options.instances)
+            for (const Vec3d& x : options.aboutParts[copy.part]) f(copy.placed(x));
+    };
+}
 
 /// Principal axes of points, those of their covariance, the longest first. The largest component of
 /// each is positive, lest signs be left to chance.
-std::array<Vec3d, 3> principalAxes(const std::vector<Vec3d>& points)
+std::array<Vec3d, 3> principalAxes(const Points& points)
 {
     Vec3d mean(0.0);
-    for (const Vec3d& p : points) mean += p;
-    mean /= double(points.size());
+    std::size_t count = 0;
+    points([&](const Vec3d& p) {
+        mean += p;
+        ++count;
+    });
+    mean /= double(count);
     openvdb::Mat3d covariance = openvdb::Mat3d::zero();
-    for (const Vec3d& p : points) {
+    points([&](const Vec3d& p) {
         const Vec3d d = p - mean;
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j < 3; ++j) covariance(i, j) += d[i] * d[j];
         }
-    }
+    });
     openvdb::Mat3d vectors;
     Vec3d values;
     std::array<Vec3d, 3> axes = {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)};
@@ -130,18 +192,20 @@ Vec3d level(const Vec3d& x, const Vec3d& up)
 
 /// The direction to the right of a view with something upright.
 /// @param[in] toEye  zero: the longest level extent lies across
-Vec3d rightOf(std::vector<Vec3d> points, const Vec3d& up, const Vec3d& toEye)
+Vec3d rightOf(const Points& points, const Vec3d& up, const Vec3d& toEye)
 {
     constexpr double least = 1e-3; // sine of the angle between the two
     if (toEye.lengthSqr() > 0.0 && up.cross(toEye.unit()).length() > least)
         return up.cross(toEye).unit();
-    for (Vec3d& x : points) x = level(x, up);
-    const Vec3d across = level(principalAxes(points)[0], up);
+    const Points levelled = [&](const auto& f) {
+        points([&](const Vec3d& x) { f(level(x, up)); });
+    };
+    const Vec3d across = level(principalAxes(levelled)[0], up);
     return across.length() > least ? across.unit() : level(Vec3d(up[1], up[2], up[0]), up).unit();
 }
 
 /// viewAxes() of points.
-std::array<Vec3d, 3> axesOf(const std::vector<Vec3d>& points, const DrawOptions& options)
+std::array<Vec3d, 3> axesOf(const Points& points, const DrawOptions& options)
 {
     Vec3d right, toEye;
     if (options.upright.lengthSqr() > 0.0) {
@@ -199,12 +263,13 @@ PictureFrame zoomFrame(const std::array<Vec3d, 3>& axes, const DrawOptions& opti
 
 } // namespace
 
-void keepView(std::size_t count, const std::function<std::vector<Vec3d>(std::size_t)>& pointsOf,
+void keepView(std::size_t count, const std::function<std::vector<Vec3d>(std::size_t)>& setOf,
               double margin, DrawOptions& options)
 {
-    const std::array<Vec3d, 3> axes = axesOf(pointsOf(0), options);
+    const std::vector<Vec3d> first = setOf(0);
+    const std::array<Vec3d, 3> axes = axesOf(pointsOf(first), options);
     openvdb::BBoxd box;
-    for (std::size_t i = 0; i < count; ++i) box.expand(seenBox(pointsOf(i), axes));
+    for (std::size_t i = 0; i < count; ++i) box.expand(seenBox(setOf(i), axes));
     const Vec3d extent = box.extents() + Vec3d(2.0 * margin);
     options.up = axes[1];
     options.toEye = axes[2];
@@ -220,8 +285,7 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
 {
     View view;
     const Span span(mesh, options);
-    const std::array<Vec3d, 3> axes =
-        axesOf(options.about.empty() ? span.points() : options.about, options);
+    const std::array<Vec3d, 3> axes = axesOf(aboutOf(span, options), options);
     view.right = axes[0];
     view.up = axes[1];
     view.toEye = axes[2];
@@ -229,10 +293,10 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     // A turn must not change the scale, so the extent across is that of all turns.
     Vec3d low(std::numeric_limits<double>::max()), high(-low);
     double reach = 0.0;
-    span.forEach([&](const Vec3d& x) {
+    span.forEach([&](const Vec3d& x, double radius) {
         const Vec3d seen(x.dot(view.right), x.dot(view.up), x.dot(view.toEye));
-        low = openvdb::math::minComponent(low, seen);
-        high = openvdb::math::maxComponent(high, seen);
+        low = openvdb::math::minComponent(low, seen - Vec3d(radius));
+        high = openvdb::math::maxComponent(high, seen + Vec3d(radius));
     });
     std::vector<Vec3d> places; // of notes, which are in the frame but move no cut
     for (const PictureNote& note : options.notes) {
@@ -249,12 +313,12 @@ View chooseView(const Mesh& mesh, const DrawOptions& options)
     const Vec3d mid = 0.5 * (low + high), extent = high - low;
     view.center = pointAt(mid, axes);
     if (options.turn != 0.0 || options.turnable) {
-        const auto turnWith = [&](const Vec3d& p) {
+        const auto turnWith = [&](const Vec3d& p, double radius) {
             const Vec3d d = p - view.center;
-            reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)));
+            reach = std::max(reach, std::hypot(d.dot(view.right), d.dot(view.toEye)) + radius);
         };
         span.forEach(turnWith);
-        for (const Vec3d& x : places) turnWith(x);
+        for (const Vec3d& x : places) turnWith(x, 0.0);
     }
     const double across = std::max(extent[0], 2.0 * reach), upward = extent[1];
     PictureFrame frame = frameOf(view.center, across, upward);
@@ -293,7 +357,7 @@ std::optional<double> clipBefore(const Mesh& mesh, const View& view, const DrawO
 
 std::array<Vec3d, 3> viewAxes(const Mesh& mesh, const DrawOptions& options)
 {
-    return axesOf(options.about.empty() ? Span(mesh, options).points() : options.about, options);
+    return axesOf(aboutOf(Span(mesh, options), options), options);
 }
 
 } // namespace molsurf

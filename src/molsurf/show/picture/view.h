@@ -31,11 +31,11 @@ View chooseView(const Mesh& mesh, const DrawOptions& options);
 std::optional<double> clipBefore(const Mesh& mesh, const View& view, const DrawOptions& options);
 
 /// Keeps one view for pictures of things that move: directions and size are in the options then.
-/// @param[in] count     how many sets of points there are, > 0
-/// @param[in] pointsOf  gives set i; the view is that of the first, and all are in the frame
-/// @param[in] margin    about the points [Å]
+/// @param[in] count   how many sets of points there are, > 0
+/// @param[in] setOf   gives set i; the view is that of the first, and all are in the frame
+/// @param[in] margin  about the points [Å]
 void keepView(std::size_t count,
-              const std::function<std::vector<openvdb::Vec3d>(std::size_t i)>& pointsOf,
-              double margin, DrawOptions& options);
+              const std::function<std::vector<openvdb::Vec3d>(std::size_t i)>& setOf, double margin,
+              DrawOptions& options);
 
 } // namespace molsurf
