@@ -4,8 +4,8 @@
 #     scripts/wheel.sh [FOLDER]
 # They go to FOLDER, build-python/wheel unless it is named. PYTHON names another Python than Debian's. The packages that
 # are needed come from PyPI into environments in build-python/; what is built there is kept. OpenVDB is linked statically,
-# and Embree is built from Debian's source for triangles and their copies alone: Debian's library is
-# several times as large. It is tested with NumPy 1 and with NumPy 2, and with MDAnalysis, MDTraj, Biopython,
+# and Embree is built from Debian's source for triangles, balls, sticks and copies alone: Debian's
+# library is several times as large. It is tested with NumPy 1 and with NumPy 2, and with MDAnalysis, MDTraj, Biopython,
 # PyArrow and Dask; there the notebook docs/tutorial.ipynb runs, too.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -42,7 +42,7 @@ build_embree() {
   [[ -e $folder/lib/libembree3.so ]] && return
   local options=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_INSTALL_PREFIX=$folder" -DCMAKE_INSTALL_LIBDIR=lib -DEMBREE_RAY_MASK=ON
                  -DEMBREE_MAX_ISA=NONE -DEMBREE_ISA_{SSE2,AVX,AVX2}=ON -DEMBREE_ISA_{SSE42,AVX512}=OFF
-                 -DEMBREE_GEOMETRY_{QUAD,CURVE,SUBDIVISION,USER,GRID,POINT}=OFF
+                 -DEMBREE_GEOMETRY_{QUAD,SUBDIVISION,USER,GRID}=OFF
                  -DEMBREE_{FILTER_FUNCTION,ISPC_SUPPORT,TUTORIALS}=OFF)
   rm -rf "$folder" && mkdir -p "$folder/source" &&
     curl -sSf -o "$folder/source.tar.xz" "$from" &&
