@@ -34,8 +34,8 @@ namespace
 {
 
 /// How far on either side the band of a stored level set is completed, before a spline is fitted to
-/// it [voxel]: splineWidthVox, and half a voxel since values of the file and those that are added
-/// do not fit exactly.
+/// it [voxel]: splineWidthVox, and a voxel since values of the file and those that are added do not
+/// fit exactly.
 constexpr double completedWidthVox = 4.5;
 
 [[noreturn]] void refuse(const std::string& message)

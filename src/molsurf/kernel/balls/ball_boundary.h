@@ -36,10 +36,20 @@ struct CapLists {
     CapLists() { clear(); }
     int size() const { return int(x.size()) - floatLanes; }
     void clear() { resize(0); }
-    /// Makes room; what comes new covers nothing.
+    /// Keeps the first ones; what follows them covers nothing.
     void resize(std::size_t count);
+    /// Makes room for caps that set() is to give; until then they cover nothing.
+    void makeRoom(std::size_t count);
     void add(float ax, float ay, float az, float capCosine, float capSine);
     void set(std::size_t i, const Cap& cap);
+    void set(std::size_t i, const Cap& cap, double capSine)
+    {
+        x[i] = float(cap.axis.x());
+        y[i] = float(cap.axis.y());
+        z[i] = float(cap.axis.z());
+        cosine[i] = float(cap.cosine);
+        sine[i] = float(capSine);
+    }
 };
 
 /// A sphere with a part that no other ball covers.

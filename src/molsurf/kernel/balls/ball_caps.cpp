@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/kernel/balls/ball_caps.h"
 
+#include "molsurf/kernel/balls/covered_sphere.h"
 #include "molsurf/kernel/balls/quad.h"
 #include "molsurf/kernel/core/simd.h"
 
@@ -25,9 +26,10 @@ constexpr float heldMargin = 3e-6f;
 constexpr std::size_t dense = 800;
 
 /// Whether a cap lies within one of some that are no smaller.
-MOLSURF_KERNEL bool isCapCovered(const Vec3f& axis, float cosine, float sine, const CapLists& caps)
+/// @param[in] count  of these; what follows in the lists covers nothing
+MOLSURF_KERNEL bool isCapCovered(const Vec3f& axis, float cosine, float sine, const CapLists& caps,
+                                 int count)
 {
-    const int count = caps.size();
     for (int k = 0; k < count; k += floatLanes) {
         const Floats between = axis.x() * load(caps.x.data() + k) +
                                axis.y() * load(caps.y.data() + k) +
@@ -61,30 +63,31 @@ Relation relate(const PlacedBall& ball, const PlacedBall& other, std::int32_t j,
     if (compareLength(ball, other, distance2, r + R) >= 0) return Relation::Apart;
     if (compareLength(ball, other, distance2, R - r) <= 0)
         return R > r ? Relation::Around : Relation::Apart;
-    const double distance = std::sqrt(distance2);
-    constexpr double most = 1.0 - 0x1p-53; // rounding must not make it 1
-    const double cosine = (distance2 + (r - R) * (r + R)) / (2.0 * distance * r);
-    cap = {way / distance, std::clamp(cosine, -most, most), j};
+    cap = meetingCap(ball, other, j);
     return Relation::Meeting;
 }
 
-void CapArrays::clear()
+Cap meetingCap(const PlacedBall& ball, const PlacedBall& other, std::int32_t j)
 {
-    for (auto* v : {&x, &y, &z, &cosine, &sine}) v->clear();
-    other.clear();
-    rounded.clear();
+    const Vec3d way = offset(ball, other);
+    const double r = ball.radius, R = other.radius, distance2 = way.lengthSqr();
+    const double distance = std::sqrt(distance2);
+    constexpr double most = 1.0 - 0x1p-53; // rounding must not make it 1
+    const double cosine = (distance2 + (r - R) * (r + R)) / (2.0 * distance * r);
+    return {way / distance, std::clamp(cosine, -most, most), j};
 }
 
-void CapArrays::add(const Vec3d& axis, double capCosine, double capSine, std::int32_t ball)
+void CapArrays::makeRoom(std::size_t count)
 {
-    x.push_back(axis.x());
-    y.push_back(axis.y());
-    z.push_back(axis.z());
-    cosine.push_back(capCosine);
-    sine.push_back(capSine);
-    other.push_back(ball);
-    rounded.add(float(axis.x()), float(axis.y()), float(axis.z()), float(capCosine),
-                float(capSine));
+    shrink(count);
+    rounded.makeRoom(count);
+}
+
+void CapArrays::shrink(std::size_t count)
+{
+    for (auto* v : {&x, &y, &z, &cosine, &sine}) v->resize(count);
+    other.resize(count);
+    rounded.resize(count);
 }
 
 namespace
@@ -128,6 +131,15 @@ enum : std::int32_t {
     unsure = around + 1
 };
 
+constexpr std::int32_t bins = 64;
+
+/// The place of a cap's cosine among equal parts of [-1, 1).
+MOLSURF_INLINE std::int32_t binOf(double cosine)
+{
+    const double place = (cosine + 1.0) * 0.5 * bins;
+    return place < bins ? std::int32_t(place) : bins - 1;
+}
+
 /// relate() for many balls in doubles: `unsure` where rounding may decide.
 /// @param[in,out] x,y,z  ways to their centres; made unit vectors
 MOLSURF_KERNEL void relateAll(double r, std::size_t count, const double* __restrict radius,
@@ -153,6 +165,21 @@ MOLSURF_KERNEL void relateAll(double r, std::size_t count, const double* __restr
     }
 }
 
+/// The sines of caps, and their places in the order of their sizes.
+MOLSURF_KERNEL void findSines(std::size_t count, const double* __restrict cosine,
+                              double* __restrict sine, std::int32_t* __restrict bin)
+{
+    for (std::size_t k = 0; k < count; ++k) {
+        sine[k] = std::sqrt((1.0 - cosine[k]) * (1.0 + cosine[k]));
+        bin[k] = binOf(cosine[k]);
+    }
+}
+
+double sineOf(const Cap& cap)
+{
+    return std::sqrt((1.0 - cap.cosine) * (1.0 + cap.cosine));
+}
+
 bool isLarger(const Cap& a, const Cap& b)
 {
     return a.cosine != b.cosine ? a.cosine < b.cosine : a.other < b.other;
@@ -175,6 +202,13 @@ CapFinder::CapFinder(const std::vector<PlacedBall>& balls)
         (balls.size() + BoxTree::group - 1) / BoxTree::group * BoxTree::group;
     for (auto* v : {&x_, &y_, &z_}) v->resize(padded, 1e15f); // near nothing
     radius_.resize(padded);
+    // Ways from one ball to others are those of any two, as long as all lie within 2000 Å.
+    const auto isExact = [&](const PlacedBall& ball) {
+        const Vec3d way = offset(balls.front(), ball);
+        return std::max({std::abs(way.x()), std::abs(way.y()), std::abs(way.z())}) < 2000.0;
+    };
+    if (std::all_of(balls.begin(), balls.end(), isExact))
+        for (const PlacedBall& ball : balls) fromFirst_.push_back(offset(balls.front(), ball));
     for (std::size_t i = 0; i < balls.size(); ++i) {
         const Vec3d centre = balls[i].centre();
         x_[i] = float(centre.x());
@@ -184,16 +218,19 @@ CapFinder::CapFinder(const std::vector<PlacedBall>& balls)
     }
 }
 
-/// Finds the balls that meet a ball, in the order of their caps.
-/// @return false if one lies around it
-bool CapFinder::gather(std::int32_t i, Scratch& s) const
+/// Finds the relations of the balls in scratch.near to a ball.
+void CapFinder::relateNear(std::int32_t i, Scratch& s) const
 {
     const PlacedBall& ball = balls_[std::size_t(i)];
-    for (auto* v : {&s.wayX, &s.wayY, &s.wayZ, &s.radius, &s.cosine}) v->resize(s.near.size());
-    s.relation.resize(s.near.size());
+    const auto grow = [&](auto& list) { list.resize(std::max(list.size(), s.near.size())); };
+    for (auto* v : {&s.wayX, &s.wayY, &s.wayZ, &s.radius, &s.cosine, &s.sine}) grow(*v);
+    grow(s.relation);
+    grow(s.bin);
     for (std::size_t k = 0; k < s.near.size(); ++k) {
-        const PlacedBall& other = balls_[std::size_t(s.near[k])];
-        const Vec3d way = offset(ball, other);
+        const auto j = std::size_t(s.near[k]);
+        const PlacedBall& other = balls_[j];
+        const Vec3d way =
+            fromFirst_.empty() ? offset(ball, other) : fromFirst_[j] - fromFirst_[std::size_t(i)];
         s.wayX[k] = way.x();
         s.wayY[k] = way.y();
         s.wayZ[k] = way.z();
@@ -201,35 +238,39 @@ bool CapFinder::gather(std::int32_t i, Scratch& s) const
     }
     relateAll(ball.radius, s.near.size(), s.radius.data(), s.wayX.data(), s.wayY.data(),
               s.wayZ.data(), s.cosine.data(), s.relation.data());
+    for (std::size_t k = 0; k < s.near.size(); ++k) {
+        if (s.relation[k] != unsure || s.near[k] == i) continue;
+        Cap cap;
+        const std::int32_t j = s.near[k];
+        const Relation relation = relate(ball, balls_[std::size_t(j)], j, cap);
+        s.relation[k] = std::int32_t(relation);
+        if (relation != Relation::Meeting) continue;
+        s.wayX[k] = cap.axis.x();
+        s.wayY[k] = cap.axis.y();
+        s.wayZ[k] = cap.axis.z();
+        s.cosine[k] = cap.cosine;
+    }
+    findSines(s.near.size(), s.cosine.data(), s.sine.data(), s.bin.data());
+}
 
+/// Finds the balls that meet a ball, in the order of their caps.
+/// @return false if one lies around it
+bool CapFinder::gather(std::int32_t i, Scratch& s) const
+{
+    relateNear(i, s);
     // Large caps first, since they hold most of the others: a counting sort by cosines in 64 bins.
-    constexpr std::size_t bins = 64;
-    const auto binOf = [&](std::size_t k) {
-        return std::min(std::size_t((s.cosine[k] + 1.0) * 0.5 * bins), bins - 1);
-    };
     std::array<std::int32_t, bins + 1> begins{};
     for (std::size_t k = 0; k < s.near.size(); ++k) {
-        if (s.near[k] == i) {
-            s.relation[k] = apart;
-        } else if (s.relation[k] == unsure) {
-            Cap cap;
-            const auto j = std::size_t(s.near[k]);
-            const Relation relation = relate(ball, balls_[j], std::int32_t(j), cap);
-            s.relation[k] = std::int32_t(relation);
-            if (relation == Relation::Meeting) {
-                s.wayX[k] = cap.axis.x();
-                s.wayY[k] = cap.axis.y();
-                s.wayZ[k] = cap.axis.z();
-                s.cosine[k] = cap.cosine;
-            }
-        }
+        if (s.near[k] == i) s.relation[k] = apart;
         if (s.relation[k] == around) return false;
-        if (s.relation[k] == meeting) ++begins[binOf(k) + 1];
+        if (s.relation[k] == meeting) ++begins[std::size_t(s.bin[k]) + 1];
     }
-    for (std::size_t b = 0; b < bins; ++b) begins[b + 1] += begins[b];
+    for (std::size_t b = 0; b < std::size_t(bins); ++b) begins[b + 1] += begins[b];
     s.order.resize(std::size_t(begins[bins]));
     for (std::size_t k = 0; k < s.near.size(); ++k) {
-        if (s.relation[k] == meeting) s.order[std::size_t(begins[binOf(k)]++)] = std::int32_t(k);
+        if (s.relation[k] != meeting) continue;
+        std::int32_t& place = begins[std::size_t(s.bin[k])];
+        s.order[std::size_t(place++)] = std::int32_t(k);
     }
     return true;
 }
@@ -244,30 +285,44 @@ Exposure CapFinder::find(std::int32_t i, Scratch& s, CapArrays& caps) const
     constexpr std::size_t most = 8 * dense; // more candidates are not even looked at one by one
     bool amongMany = BoxTree::group * s.groups.size() > most;
     if (!amongMany) {
-        s.near.resize(BoxTree::group * s.groups.size());
-        s.near.resize(
-            std::size_t(findTouching({x_.data(), y_.data(), z_.data(), radius_.data()}, s.groups,
-                                     Vec3f(centre), float(1.000001 * room), s.near.data())));
+        s.touching.resize(std::max(s.touching.size(), BoxTree::group * s.groups.size()));
+        const int count = findTouching({x_.data(), y_.data(), z_.data(), radius_.data()}, s.groups,
+                                       Vec3f(centre), float(1.000001 * room), s.touching.data());
+        s.near.assign(s.touching.begin(), s.touching.begin() + count);
         amongMany = s.near.size() > dense;
     }
-    caps.clear();
-    const auto add = [&](const Vec3d& axis, double cosine, std::int32_t other) {
-        const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
-        if (!isCapCovered(Vec3f(axis), float(cosine), float(sine), caps.rounded))
-            caps.add(axis, cosine, sine, other);
+    std::size_t kept = 0;
+    const auto add = [&](const Cap& cap, double sine) {
+        if (!isCapCovered(Vec3f(cap.axis), float(cap.cosine), float(sine), caps.rounded, int(kept)))
+            caps.set(kept++, cap, sine);
     };
     if (amongMany) {
-        if (!dense_.find(i, s.found)) return {false, true};
+        if (!dense_.find(i, s.found)) return {false, true, false};
         std::sort(s.found.begin(), s.found.end(), isLarger);
-        for (const Cap& cap : s.found) add(cap.axis, cap.cosine, cap.other);
+        caps.makeRoom(s.found.size());
+        for (const Cap& cap : s.found) add(cap, sineOf(cap));
     } else {
-        if (!gather(i, s)) return {false, false};
-        for (const std::int32_t n : s.order) {
-            const auto k = std::size_t(n);
-            add({s.wayX[k], s.wayY[k], s.wayZ[k]}, s.cosine[k], s.near[k]);
+        if (!gather(i, s)) return {false, false, false};
+        s.met.makeRoom(s.order.size());
+        for (std::size_t n = 0; n < s.order.size(); ++n) {
+            const auto k = std::size_t(s.order[n]);
+            s.met.set(n, s.capAt(k), s.sine[k]);
         }
+        if (isSphereSurelyCovered(s.met)) return {true, false, true};
+        caps.makeRoom(s.order.size());
+        for (const std::int32_t k : s.order) add(s.capAt(std::size_t(k)), s.sine[std::size_t(k)]);
     }
-    return {true, amongMany};
+    caps.shrink(kept);
+    return {true, amongMany, false};
+}
+
+void CapFinder::findAgain(std::int32_t i, const std::int32_t* others, std::size_t count, Scratch& s,
+                          CapArrays& caps) const
+{
+    s.near.assign(others, others + count);
+    relateNear(i, s);
+    caps.makeRoom(count);
+    for (std::size_t k = 0; k < count; ++k) caps.set(k, s.capAt(k), s.sine[k]);
 }
 
 } // namespace molsurf

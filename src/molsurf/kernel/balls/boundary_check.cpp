@@ -52,26 +52,47 @@ struct RayCubes {
     double sum = 0.0, squares = 0.0; ///< of end^3 - begin^3, where they enter and leave
 };
 
-/// Clips eight rays at a time by the planes of the caps.
-/// @param[in] first  of the directions, a multiple of 8, as is their number
+/// Clips sixteen rays at a time by the planes of the caps.
+/// @param[in] first  of the directions, a multiple of 16, as is their number
 MOLSURF_KERNEL RayCubes cubesOf(const Directions& u, std::size_t first, std::size_t rays,
                                 const CapLists& caps)
 {
+    constexpr float flat = 1e-3f; // a plane this near the centre, in radii
+    constexpr std::size_t pair = 2;
     Floats sum = splat(0.0f), squares = splat(0.0f); // rounding is far below the rays' own error
-    for (std::size_t r = 0; r < rays; r += bundle) {
-        const std::size_t d = (first + r) % Directions::count;
-        const Floats x = load(&u.x[d]), y = load(&u.y[d]), z = load(&u.z[d]);
-        Floats begin = splat(0.0f), end = splat(1.0f);
-        for (std::size_t k = 0; k < std::size_t(caps.size()); ++k) {
-            const Floats along = caps.x[k] * x + caps.y[k] * y + caps.z[k] * z;
-            const Floats at = caps.cosine[k] / along; // beyond the plane where t along > cosine
-            end = smaller(along > 0.0f ? at : splat(2.0f), end);
-            begin = larger(along < 0.0f ? at : splat(-1.0f), begin);
+    for (std::size_t r = 0; r < rays; r += pair * bundle) {
+        Floats x[pair], y[pair], z[pair], begin[pair], end[pair];
+        Floats inverse[pair]; // of the end, by the planes with the centre on the near side
+        for (std::size_t p = 0; p < pair; ++p) {
+            const std::size_t d = (first + r + p * bundle) % Directions::count;
+            x[p] = load(&u.x[d]);
+            y[p] = load(&u.y[d]);
+            z[p] = load(&u.z[d]);
+            begin[p] = splat(0.0f);
+            end[p] = inverse[p] = splat(1.0f);
         }
-        end = larger(begin, end); // a ray that misses the cell leaves before it enters
-        const Floats cubes = end * end * end - begin * begin * begin;
-        sum += cubes;
-        squares += cubes * cubes;
+        for (std::size_t k = 0; k < std::size_t(caps.size()); ++k) {
+            const bool isNear = caps.cosine[k] > flat; // as nearly always
+            const float scale = isNear ? 1.0f / caps.cosine[k] : 1.0f;
+            const float cx = scale * caps.x[k], cy = scale * caps.y[k], cz = scale * caps.z[k];
+            for (std::size_t p = 0; p < pair; ++p) {
+                const Floats along = cx * x[p] + cy * y[p] + cz * z[p];
+                if (isNear) {
+                    inverse[p] = larger(along, inverse[p]);
+                    continue;
+                }
+                const Floats at = caps.cosine[k] / along; // beyond the plane where t along > cosine
+                end[p] = smaller(along > 0.0f ? at : splat(2.0f), end[p]);
+                begin[p] = larger(along < 0.0f ? at : splat(-1.0f), begin[p]);
+            }
+        }
+        for (std::size_t p = 0; p < pair; ++p) {
+            // A ray that misses the cell leaves before it enters.
+            const Floats last = larger(begin[p], smaller(1.0f / inverse[p], end[p]));
+            const Floats cubes = last * last * last - begin[p] * begin[p] * begin[p];
+            sum += cubes;
+            squares += cubes * cubes;
+        }
     }
     RayCubes out;
     for (int k = 0; k < floatLanes; ++k) {
@@ -133,11 +154,11 @@ std::size_t raysFor(std::size_t balls)
     return std::clamp(all / std::max<std::size_t>(balls, 1) / least * least, least, most);
 }
 
-CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std::size_t rays)
+CellVolume sampleCell(const CapLists& caps, double radius, std::int32_t i, std::size_t rays)
 {
     const double ball = 4.0 / 3.0 * M_PI * radius * radius * radius, n = double(rays);
     if (caps.size() == 0) return {ball, 0.0};
-    const RayCubes cubes = cubesOf(directions(), std::size_t(i) * rays, rays, caps.rounded);
+    const RayCubes cubes = cubesOf(directions(), std::size_t(i) * rays, rays, caps);
     const double mean = cubes.sum / n;
     return {ball * mean, ball * ball * std::max(cubes.squares / n - mean * mean, 0.0) / n};
 }

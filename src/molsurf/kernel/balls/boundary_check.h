@@ -4,7 +4,7 @@
 /// @file
 /// Checks the measures of a boundary by other ways to the same numbers.
 
-#include "molsurf/kernel/balls/ball_caps.h"
+#include "molsurf/kernel/balls/ball_boundary.h"
 #include "molsurf/kernel/balls/boundary_measure.h"
 #include "molsurf/progress.h"
 
@@ -25,7 +25,7 @@ struct CellVolume {
 /// @param[in] caps  of the ball's sphere
 /// @param[in] i     the ball's place; it chooses the directions
 /// @param[in] rays  a multiple of 16
-CellVolume sampleCell(const CapArrays& caps, double radius, std::int32_t i, std::size_t rays);
+CellVolume sampleCell(const CapLists& caps, double radius, std::int32_t i, std::size_t rays);
 
 /// Rays for each of many balls, such that all cost about the same.
 std::size_t raysFor(std::size_t balls);

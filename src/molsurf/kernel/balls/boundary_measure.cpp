@@ -48,9 +48,8 @@ struct Face {
 /// The cap of a patch in another ball.
 Cap capOf(const BallBoundary& boundary, const Patch& patch, std::int32_t other)
 {
-    Cap cap{};
-    relate(boundary.balls[std::size_t(patch.ball)], boundary.balls[std::size_t(other)], other, cap);
-    return cap;
+    return meetingCap(boundary.balls[std::size_t(patch.ball)], boundary.balls[std::size_t(other)],
+                      other);
 }
 
 double distance2(const Arc& arc, const Vec3d& x)

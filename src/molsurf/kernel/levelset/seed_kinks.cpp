@@ -59,15 +59,18 @@ void gatherNormals(const NearestSeeds& near, const SeedBlock& index, Normals& no
 {
     constexpr int dim = Normals::dim, count = dim * dim * dim;
     constexpr int ahead = 24; // of reading a seed, to ask for it: they lie scattered in memory
-    std::int32_t own[count];
+    std::int32_t own[count + ahead];
+    std::fill_n(own + count, ahead, noSeed);
+    for (float* numbers : normals.n)
+        std::fill_n(numbers, count, std::numeric_limits<float>::quiet_NaN());
     for (int row = 0; row < dim * dim; ++row)
         std::copy_n(index.at(row / dim, row % dim, 0), dim, own + dim * row);
     for (int i = 0; i < count; ++i) {
-        const std::int32_t soon = own[std::min(i + ahead, count - 1)];
+        const std::int32_t soon = own[i + ahead];
         if (soon != noSeed) __builtin_prefetch(&near[soon]);
-        for (int a = 0; a < 3; ++a)
-            normals.n[a][i] =
-                own[i] == noSeed ? std::numeric_limits<float>::quiet_NaN() : near[own[i]].n[a];
+        if (own[i] == noSeed) continue;
+        const Vec3f& n = near[own[i]].n;
+        for (int a = 0; a < 3; ++a) normals.n[a][i] = n[a];
     }
 }
 

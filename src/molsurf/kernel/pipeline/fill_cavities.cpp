@@ -148,7 +148,7 @@ void fillInDistance(const std::vector<LeafMask>& cavities, SparseField& S, const
     // Its band changes on both sides of a wall that is gone; all other values stay as they are.
     LeafTable about = S.table;
     for (std::size_t n = 0; n < about.size(); ++n) about.active(n) = cavities[n];
-    about = dilated(about, 2 * int(splineWidthVox), Spread::Ball, progress);
+    about = dilated(about, int(2.0 * splineWidthVox), Spread::Ball, progress);
     parallelFor(S.table.size(), progress, [&](std::size_t n) {
         const std::int32_t m = about.find(S.table.origin(n));
         if (m == noLeaf) return;

@@ -18,29 +18,32 @@ constexpr int window = 3 * leafDim; // a leaf and the two beside it, along an ax
 /// 64 lines through a leaf and its two neighbours along an axis.
 struct Lines {
     alignas(64) float value[window][64];
-    alignas(64) float solve[window][64]; // 1 where a voxel and both beside it are active, else 0
+    std::uint64_t solved[window]; // bit k: line k has this voxel and both beside it
 };
 
-/// Solves (solve/6, 1 - solve/3, solve/6) c = value on all lines by Thomas' algorithm; c replaces
-/// value.
+/// Solves (s/6, 1 - s/3, s/6) c = value by Thomas' algorithm, s being 1 where a line is solved and
+/// else 0; in the leaf itself c replaces value.
 MOLSURF_KERNEL void solveLines(Lines& lines)
 {
     alignas(64) float upper[window][64]; // of the eliminated rows
     for (int k = 0; k < 64; ++k) upper[0][k] = 0.0f;
+    const Ints bit = laneBits();
     for (int i = 1; i < window; ++i) {
-        const float* __restrict s = lines.solve[i];
-        const float* __restrict before = upper[i - 1];
-        const float* __restrict last = lines.value[i - 1];
-        float* __restrict value = lines.value[i];
-        float* __restrict out = upper[i];
-        for (int k = 0; k < 64; ++k) {
-            const float off = s[k] * (1.0f / 6.0f);
-            const float pivot = 1.0f / (1.0f - 2.0f * off - off * before[k]);
-            out[k] = off * pivot;
-            value[k] = (value[k] - off * last[k]) * pivot;
+        if (lines.solved[i] == 0) { // these rows are done: their pivots are 1
+            std::fill_n(upper[i], 64, 0.0f);
+            continue;
+        }
+        for (int k = 0; k < 64; k += floatLanes) {
+            const Ints isSolved = splat(std::int32_t(lines.solved[i] >> k & 0xff)) & bit;
+            const Floats off = isSolved != 0 ? splat(1.0f / 6.0f) : Floats{};
+            const Floats pivot = 1.0f / (1.0f - 2.0f * off - off * load(upper[i - 1] + k));
+            store(upper[i] + k, off * pivot);
+            float* value = lines.value[i] + k;
+            store(value, (load(value) - off * load(lines.value[i - 1] + k)) * pivot);
         }
     }
-    for (int i = window - 2; i >= 0; --i) {
+    for (int i = window - 2; i >= leafDim; --i) {
+        if (lines.solved[i] == 0) continue;
         const float* __restrict u = upper[i];
         const float* __restrict next = lines.value[i + 1];
         float* __restrict value = lines.value[i];
@@ -62,23 +65,6 @@ std::uint64_t lineBits(const LeafMask& mask, int axis, int i)
         bits |= byte << (8 * x);
     }
     return bits;
-}
-
-/// Finds where the lines are to be solved: at voxels that are on, as are both beside them.
-/// @param[in] on  bits of the lines' voxels, see lineBits()
-MOLSURF_KERNEL void findSolved(const std::uint64_t* on, Lines& lines)
-{
-    Ints bit;
-    for (int k = 0; k < floatLanes; ++k) bit[k] = 1 << k;
-    const Floats one = splat(1.0f);
-    for (int i = 0; i < window; ++i) {
-        const bool inner = i > 0 && i + 1 < window;
-        const std::uint64_t bits = inner ? on[i - 1] & on[i] & on[i + 1] : 0;
-        for (int k = 0; k < 64; k += floatLanes) {
-            const Ints solved = splat(std::int32_t(bits >> k & 0xff)) & bit;
-            store(lines.solve[i] + k, solved != 0 ? one : Floats{});
-        }
-    }
 }
 
 /// Transposes 8 x 8 floats.
@@ -144,7 +130,10 @@ void gatherLines(const LeafTable& table, const LeafField& field, std::size_t n, 
             linesAlongZ(leaf, rows);
         }
     }
-    findSolved(on, lines);
+    for (int i = 0; i < window; ++i) {
+        const bool inner = i > 0 && i + 1 < window;
+        lines.solved[i] = inner ? on[i - 1] & on[i] & on[i + 1] : 0;
+    }
 }
 
 /// Writes the middle third of lines to their leaf.
