@@ -17,6 +17,9 @@ namespace molsurf
 /// each is closed, and they may pass through each other. Areas, volumes, pieces and groups are
 /// sums; the evolution is that of the part which took the most steps, unless one did not converge.
 ///
+/// Of a unit of a whole each part is made as runUnit() does, among the balls of its group around
+/// the unit: measures are those of the whole, and there is no level set.
+///
 /// @param[in] atoms  with groups
 /// @throws Error(ErrorKind::Input) if there is no such group
 /// @throws Error as makeSurface(), with the part's name before the message

@@ -99,6 +99,10 @@ TEST(Copies, OthersAreTheRest)
         std::sort(all.begin(), all.end());
         for (int i = 0; i < 60; ++i) EXPECT_EQ(all[std::size_t(i)], i + 1) << text;
     }
+    SelectOptions options = copies("1-60");
+    options.assembly.copies.others = true;
+    EXPECT_HAS(errorOf(ErrorKind::Input, [&] { selectBalls(s, options); }),
+               "others: expected copies that `copies` leaves out, got all 60 chosen");
 }
 
 TEST(Copies, AreThoseOfTheFirstOperatorWhereverItIs)

@@ -182,6 +182,10 @@ std::vector<std::size_t> chooseCopies(const Structure& structure, const Assembly
         const std::vector<std::size_t> taken = chooseCopies(structure, assembly, left, centroid);
         std::set_difference(all.begin(), all.end(), taken.begin(), taken.end(),
                             std::back_inserter(chosen));
+        if (chosen.empty())
+            fail(structure, assembly,
+                 "others: expected copies that `copies` leaves out, got all " +
+                     std::to_string(all.size()) + " chosen");
         return chosen;
     }
     for (const auto& [first, last] : choice.ranges) {
