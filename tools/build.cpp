@@ -174,6 +174,7 @@ std::vector<Mesh> coarserMeshes(const CommandLine& call, const BallSet& balls, R
 // Gives back what pictures need more than files without grids.
 void dropGrids(MolecularSurface& result)
 {
+    if (!result.surface && result.fields.empty()) return; // the next frame can use the memory
     result.surface.reset();
     result.fields.clear();
     malloc_trim(0); // fields leave pieces of memory

@@ -306,8 +306,7 @@ public:
     bool knowsOverlaps() const { return !anyLost_; }
 
 private:
-    /// A hidden ball's cell is small: with one ray for four of another ball it adds less to the
-    /// error than those do (a tenth of the variance, measured at 1CRN).
+    /// A hidden ball's cell is small, and so is the spread of its rays: a quarter of them will do.
     static constexpr std::size_t hiddenShare = 4;
 
     std::size_t end(std::size_t block) const

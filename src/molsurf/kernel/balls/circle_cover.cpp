@@ -164,19 +164,27 @@ MOLSURF_KERNEL int keepCovers(RoundedCovers& f, int count, std::int32_t* kept)
         store(f.holds.data() + k, known & (cosine < most) ? cut : splat(2.0f));
         store(f.held.data() + k, none ? splat(3.0f) : known ? cut : splat(-3.0f));
     }
-    int m = 0;
+    // Most caps cover nothing of a circle: only the others are compared.
+    int some = 0;
     for (int k = 0; k < count; ++k) {
+        for (auto* list : {&f.u, &f.v, &f.base, &f.sine, &f.holds, &f.held})
+            (*list)[std::size_t(some)] = (*list)[std::size_t(k)];
+        kept[some] = k;
+        some += f.held[std::size_t(some)] < 2.5f;
+    }
+    store(f.holds.data() + some, splat(2.0f));
+    int m = 0;
+    for (int k = 0; k < some; ++k) {
         const auto i = std::size_t(k);
         const float x = f.u[i], y = f.v[i], cosine = f.base[i], sine = f.sine[i];
-        const float own = f.held[i];
-        Ints within = splat(own > 2.5f ? -1 : 0);
-        for (int l = 0; l < count; l += floatLanes) {
+        Ints within = {};
+        for (int l = 0; l < some; l += floatLanes) {
             const Floats holds = load(f.holds.data() + l);
             const Floats between = x * load(f.u.data() + l) + y * load(f.v.data() + l);
             const Floats difference = cosine * holds + sine * load(f.sine.data() + l);
-            within |= (between >= difference + margin) & (holds <= own);
+            within |= (between >= difference + margin) & (holds <= f.held[i]);
         }
-        kept[m] = k;
+        kept[m] = kept[k];
         m += !any(within);
     }
     return m;
