@@ -63,10 +63,10 @@ CommandLine callOf(PlanManifest manifest, const std::string& path, PlanFiles fil
         const Option* option = findOption(BricksPlan, name);
         if (!option || !option->file) continue;
         for (std::string& value : values) {
-            const auto place = option->file(value);
-            if (!place) continue;
-            read.push_back(resolved(place->in(value)));
-            value.replace(place->begin, place->count, read.back());
+            const std::string_view named = option->file(value);
+            if (named.empty()) continue;
+            read.push_back(resolved(std::string(named)));
+            value.replace(std::size_t(named.data() - value.data()), named.size(), read.back());
         }
     }
     for (const std::string& file : read)

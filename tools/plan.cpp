@@ -60,8 +60,10 @@ GivenOptions planned(const CommandLine& call)
         if (!option || !option->get) continue;
         std::vector<std::string>& kept = options[name]; // of a switch it is empty
         for (std::string value : values) {
-            const auto path = option->file ? option->file(value) : std::nullopt;
-            if (path) value.replace(path->begin, path->count, fromPlan(call, path->in(value)));
+            const std::string_view path = option->file ? option->file(value) : "";
+            if (!path.empty())
+                value.replace(std::size_t(path.data() - value.data()), path.size(),
+                              fromPlan(call, std::string(path)));
             kept.push_back(std::move(value));
         }
     }

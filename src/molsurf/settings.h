@@ -14,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -60,13 +61,6 @@ enum class SettingOf {
     Surface   ///< SurfaceOptions
 };
 
-/// The place of a path in a value.
-struct PathPlace {
-    std::size_t begin = 0, count = std::string::npos;
-
-    std::string in(const std::string& value) const { return value.substr(begin, count); }
-};
-
 /// An option that sets something of a `To`. The options of a base are those of what derives from
 /// it, too. Its name is that of the command line: "fill-cavities".
 template<typename To>
@@ -89,9 +83,9 @@ struct OptionRow {
     std::vector<SurfaceKind> kinds = {}; ///< the surfaces that it changes; empty: all
     unsigned shownIn = 0; ///< the formats that show it, a set of holds::Content; 0: it is no matter
                           ///< of formats
-    /// Where in a value the path of a file is that is read; none: the value names none. Null: no
-    /// value does.
-    std::function<std::optional<PathPlace>(const std::string& value)> file = nullptr;
+    /// The part of a value that is the path of a file to read; empty: the value names none. Null:
+    /// no value does.
+    std::function<std::string_view(const std::string& value)> file = nullptr;
     const char* former = nullptr; ///< a name that it had before, which is taken as well; null: none
     char letter = 0;              ///< of the command line, 'o'; 0: none
     unsigned verbs = 0;           ///< of the command line that take it

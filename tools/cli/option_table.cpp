@@ -539,8 +539,8 @@ Option panelOption()
          "files and kinds side by side or in turn; repeats"},
         [](CommandLine& call, const std::string& value) { call.panels.push_back(panelOf(value)); });
     panel.file = [](const std::string& value) {
-        return directionOf(value) || surfaceKindOf(value) ? std::nullopt
-                                                          : std::optional(PathPlace());
+        const bool names = !directionOf(value) && !surfaceKindOf(value);
+        return std::string_view(value).substr(names ? 0 : value.size());
     };
     return of(Build, shownIn(Pixels | ColorChoices, panel));
 }
@@ -757,7 +757,8 @@ std::vector<OptionFile> filesOf(Verb verb, const GivenOptions& given)
         const Option* option = findOption(verb, name);
         if (!option || !option->file) continue;
         for (const std::string& value : values)
-            if (const auto path = option->file(value)) files.push_back({option, path->in(value)});
+            if (const auto path = option->file(value); !path.empty())
+                files.push_back({option, std::string(path)});
     }
     return files;
 }

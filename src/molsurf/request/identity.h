@@ -29,7 +29,7 @@ GivenOption givenOption(const OptionRow<To>& row, const std::vector<std::string>
     GivenOption given{row.name, values, {}};
     if (!row.get || !row.file) return given;
     for (const std::string& value : values)
-        if (const auto path = row.file(value)) given.files.push_back(path->in(value));
+        if (const auto path = row.file(value); !path.empty()) given.files.emplace_back(path);
     return given;
 }
 

@@ -120,7 +120,7 @@ Row with(Row row, const Change& change)
 template<typename Row>
 Row ofFile(Row row)
 {
-    row.file = [](const std::string&) { return PathPlace(); };
+    row.file = [](const std::string& value) { return std::string_view(value); };
     return row;
 }
 

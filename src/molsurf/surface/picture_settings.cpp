@@ -58,7 +58,7 @@ PictureSetting viewSetting()
                        values.back());
     };
     row.file = [](const std::string& value) {
-        return isViewName(value) ? std::optional(PathPlace()) : std::nullopt;
+        return std::string_view(value).substr(isViewName(value) ? 0 : value.size());
     };
     return shownIn(holds::Views, row);
 }

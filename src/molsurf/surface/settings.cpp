@@ -270,7 +270,7 @@ std::vector<Setting> atomSettings()
                   of(&SelectOptions::radii)),
              [](Setting& row) {
                  row.file = [](const std::string& value) {
-                     return isRadiiSet(value) ? std::nullopt : std::optional(PathPlace());
+                     return std::string_view(value).substr(isRadiiSet(value) ? value.size() : 0);
                  };
              }),
         maxInput};
@@ -484,12 +484,12 @@ Values colorFiles()
     return starts;
 }
 
-/// The path in a value behind one of some words.
-std::optional<PathPlace> pathBehind(const Values& words, const std::string& value)
+/// The path in a value behind one of some words; empty: there is none.
+std::string_view pathBehind(const Values& words, const std::string& value)
 {
     for (const std::string& word : words)
-        if (lowered(value).rfind(word, 0) == 0) return PathPlace{word.size()};
-    return std::nullopt;
+        if (lowered(value).rfind(word, 0) == 0) return std::string_view(value).substr(word.size());
+    return {};
 }
 
 Values colorWords()
@@ -632,9 +632,8 @@ Setting patchSetting()
                (rule->above ? ">" : "<") + shortest(rule->level);
     };
     row.file = [](const std::string& value) {
-        std::optional<PathPlace> path = pathBehind(colorFiles(), value);
-        if (path) path->count = value.find_last_of("<>") - path->begin;
-        return path;
+        const std::string_view behind = pathBehind(colorFiles(), value);
+        return behind.substr(0, behind.find_last_of("<>"));
     };
     for (const std::string& word : patchWords()) row.words.push_back(word + ">");
     row.of = SettingOf::Molecule;

@@ -155,10 +155,10 @@ TEST(Settings, AColorSaysWhatElseItNeeds)
     EXPECT_EQ((*settings.labels.plainColor)[1], 0x20);
     row("color").set(settings, {"Table=Values.csv"});
     EXPECT_EQ(settings.labels.valueBy->file, "Values.csv");
-    EXPECT_EQ(row("color").file("table=Values.csv")->in("table=Values.csv"), "Values.csv");
-    const std::string patches = "Potential=a<b>.dx>1.5";
-    EXPECT_EQ(row("patches").file(patches)->in(patches), "a<b>.dx");
-    EXPECT_FALSE(row("patches").file("hydrophobicity>0"));
+    const std::string table = "table=Values.csv", patches = "Potential=a<b>.dx>1.5";
+    EXPECT_EQ(row("color").file(table), "Values.csv");
+    EXPECT_EQ(row("patches").file(patches), "a<b>.dx");
+    EXPECT_EQ(row("patches").file("hydrophobicity>0"), "");
 }
 
 // Warnings name settings that change none of the surfaces, and lengths that voxels do not resolve.

@@ -5,30 +5,16 @@
 /// Triangle meshes, balls and sticks in Embree's hands.
 
 #include "molsurf/analysis/proximity/embree.h"
+#include "molsurf/analysis/proximity/ray_unit.h"
 #include "molsurf/kernel/mesh/mesh_instance.h"
 #include "molsurf/mesh.h"
 
-#include <openvdb/math/Vec4.h>
-
-#include <array>
 #include <functional>
 #include <utility>
 #include <vector>
 
 namespace molsurf
 {
-
-/// Shapes that copies repeat together. Balls and sticks are round, not of triangles.
-struct RayUnit {
-    enum Kind : unsigned { Triangles, Balls, Sticks }; ///< the numbers that a hit has
-
-    std::vector<openvdb::Vec4f> balls;                 ///< x, y, z and radius [Å]
-    std::vector<std::array<openvdb::Vec4f, 2>> sticks; ///< the same of both ends
-    Mesh mesh;
-
-    /// Tells whether there is nothing in it.
-    bool empty() const { return balls.empty() && sticks.empty() && mesh.triangles.empty(); }
-};
 
 /// A bounding volume hierarchy over the triangles of a mesh, numbered as there.
 class RayScene

@@ -4,7 +4,7 @@
 /// @file
 /// Atoms as balls, sticks and tubes, to be seen beside a surface.
 
-#include "molsurf/analysis/proximity/ray_scene.h"
+#include "molsurf/analysis/proximity/ray_unit.h"
 #include "molsurf/atoms.h"
 #include "molsurf/kernel/mesh/mesh_instance.h"
 #include "molsurf/mesh.h"
