@@ -247,6 +247,15 @@ class Batch(ToolTest):
         (self.folder / "list").write_text(f"{CRAMBIN}\n")
         self.assertEqual(self.batch(0, "-q", "--formats", "json").stderr, b"")
 
+    def test_the_table_has_the_numbers_of_the_report(self):
+        (self.folder / "list").write_text(f"{DATA / '4at1.ent.gz'}\n")
+        self.check(0, "batch", "list", "-O", "out", "--surface", "ses", "--voxel", "2", "--formats", "json")
+        report = json.loads((self.folder / "out" / "4at1.json").read_text())["surface"]
+        row = json.loads((self.folder / "out" / "summary.json").read_text())["structures"][0]
+        self.assertGreater(report["cavities"], report["components"])
+        for name in ("area", "volume", "euler_characteristic", "components", "cavities"):
+            self.assertEqual(row[name], report[name], name)
+
     def test_files_that_options_name_count_by_their_content(self):
         (self.folder / "list").write_text(f"{CRAMBIN}\n")
         for radius, status, says in ((1.7, 0, "0 failed"), (1.7, 0, "1 done before"), (1.8, 1, "other options")):
