@@ -11,19 +11,22 @@
 namespace molsurf
 {
 
-RayScene::RayScene(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles)
+RayScene::RayScene() : device_(rtcNewDevice(nullptr))
 {
-    device_ = rtcNewDevice(nullptr);
     if (!device_) throw std::bad_alloc();
+}
+
+RayScene::RayScene(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles)
+    : RayScene()
+{
     scene_ = sceneOf(positions, triangles, 0, triangles.size());
     trimHeap(); // what it was built with
 }
 
 RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& parts,
                    const std::vector<MeshInstance>& instances)
+    : RayScene()
 {
-    device_ = rtcNewDevice(nullptr);
-    if (!device_) throw std::bad_alloc();
     for (const auto& [first, end] : parts)
         parts_.push_back(sceneOf(mesh.positions, mesh.triangles, first, end));
     place(instances);
@@ -31,9 +34,8 @@ RayScene::RayScene(const Mesh& mesh, const std::vector<std::pair<std::size_t, st
 
 RayScene::RayScene(const std::vector<const RayUnit*>& units,
                    const std::vector<MeshInstance>& instances)
+    : RayScene()
 {
-    device_ = rtcNewDevice(nullptr);
-    if (!device_) throw std::bad_alloc();
     for (const RayUnit* unit : units) {
         parts_.push_back(sceneOf([&](RTCScene scene) {
             if (!unit->balls.empty()) addBalls(*unit, scene);

@@ -46,6 +46,8 @@ public:
     RTCScene get() const { return scene_; }
 
 private:
+    /// A device without a scene. The destructor releases it whatever follows.
+    RayScene();
     RTCScene sceneOf(const std::function<void(RTCScene)>& attach);
     RTCScene sceneOf(const std::vector<openvdb::Vec3f>& positions, const Triangles& triangles,
                      std::size_t first, std::size_t end);
