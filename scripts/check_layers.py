@@ -48,7 +48,7 @@ LIBRARIES = {
     "png.h": ["src/molsurf/show/picture/write_png.cpp"],
     "ft2build.h": ["src/molsurf/show/picture/font.cpp"],
     "embree": ["src/molsurf/analysis/proximity/embree.h"],
-    "openssl/": ["src/molsurf/molecule/structure/sha256.cpp"],
+    "sodium": ["src/molsurf/molecule/structure/sha256.cpp"],
     "boost/program_options": ["tools/cli/parse.cpp"],
 }
 

@@ -6,13 +6,12 @@
 #include "molsurf/molecule/structure/archive.h"
 #include "molsurf/molecule/structure/load_text.h"
 
-#include <openssl/evp.h>
+#include <sodium/crypto_hash_sha256.h>
 
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
-#include <vector>
 
 namespace molsurf
 {
@@ -22,24 +21,25 @@ namespace
 
 std::string sha256(std::istream& in, const std::string& name)
 {
-    std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
-    std::vector<char> block(std::size_t(1) << 18);
+    crypto_hash_sha256_state state;
+    crypto_hash_sha256_init(&state);
+    constexpr std::size_t size = std::size_t(1) << 16;
+    const std::unique_ptr<char[]> block(new char[size]);
     if (in) errno = 0;
-    bool good = in && context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
-    while (good && in) {
-        in.read(block.data(), std::streamsize(block.size()));
-        good = EVP_DigestUpdate(context.get(), block.data(), std::size_t(in.gcount()));
+    while (in) {
+        in.read(block.get(), std::streamsize(size));
+        crypto_hash_sha256_update(&state, reinterpret_cast<const unsigned char*>(block.get()),
+                                  std::size_t(in.gcount()));
     }
-    unsigned char digest[EVP_MAX_MD_SIZE];
-    unsigned int size = 0;
-    good = good && in.eof() && EVP_DigestFinal_ex(context.get(), digest, &size);
-    if (!good)
+    if (!in.eof())
         throw Error(ErrorKind::Input, "cannot read " + name + " for its SHA-256", mayPass(errno));
+    unsigned char digest[crypto_hash_sha256_BYTES];
+    crypto_hash_sha256_final(&state, digest);
 
     std::string text;
-    for (unsigned int i = 0; i < size; ++i) {
-        text += "0123456789abcdef"[digest[i] >> 4];
-        text += "0123456789abcdef"[digest[i] & 15];
+    for (const unsigned char byte : digest) {
+        text += "0123456789abcdef"[byte >> 4];
+        text += "0123456789abcdef"[byte & 15];
     }
     return text;
 }
