@@ -3,6 +3,7 @@
 #include "support/fields.h"
 
 #include <gtest/gtest.h>
+#include <openvdb/tools/SignedFloodFill.h>
 
 #include <cmath>
 
@@ -67,6 +68,26 @@ TEST(ToLevelSet, KeepsValuesInTheBandAndSignsEverywhere)
     }
     EXPECT_GT(inside, 1000);
     EXPECT_EQ(read.getValue(Coord::round(ball.centre / voxel)), -float(width));
+}
+
+// A tile of 128^3 voxels inside, and nodes of 4096^3 with and without a child that ends inside.
+TEST(ToLevelSet, FillsTilesOfTheUpperNodes)
+{
+    const double voxel = 0.5, width = 1.5, radius = 60.0;
+    const Vec3d centre(32.0);
+    const auto distance = [&](const Vec3d& x) { return (x - centre).length() - radius; };
+    const LeafTable table = test::bandTable(distance, centre, radius + 3.0, voxel, width);
+    const auto grid = toLevelSet(test::filled(table, voxel, distance), width, Progress());
+    openvdb::FloatTree plain(grid->tree());
+    for (auto tile = plain.beginValueOff(); tile; ++tile)
+        if (tile.getLevel() > 0) tile.setValue(float(width));
+    openvdb::tools::signedFloodFill(plain);
+    const auto read = grid->getConstAccessor();
+    EXPECT_EQ(read.getValueDepth(Coord(64)), 1);
+    EXPECT_EQ(read.getValue(Coord(64)), -float(width));
+    for (int i = -70; i <= 200; ++i)
+        for (const Coord& c : {Coord(i, 64, 64), Coord(64, i, 60), Coord(3, 70, i), Coord(i)})
+            EXPECT_EQ(read.getValue(c), plain.getValue(c)) << c;
 }
 
 TEST(FromGrid, ReadsWhatToLevelSetWrote)

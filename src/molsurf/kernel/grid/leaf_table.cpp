@@ -68,6 +68,12 @@ bool before(const Coord& a, const Coord& b)
     return s != t ? s < t : a < b;
 }
 
+/// The step to the k-th of 27 neighbours.
+Coord offsetOf(int k)
+{
+    return {k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1};
+}
+
 } // namespace
 
 /// The slot of a tile, or the empty one where it would be: a hash table with linear probing.
@@ -90,6 +96,33 @@ std::int32_t LeafTable::Layout::find(const Coord& voxel) const
     if (tile < 0) return noLeaf;
     const Coord leaf = (voxel >> 3) & 7;
     return tiles[std::size_t(tile)].leaves[std::size_t(64 * leaf.x() + 8 * leaf.y() + leaf.z())];
+}
+
+void LeafTable::Layout::findNeighbours(std::size_t n)
+{
+    const Coord leaf = (origins[n] >> 3) & 7;
+    const Tile& tile = tiles[std::size_t(slots[slotOf(origins[n] >> 6)])];
+    // Of the three leaves along each axis: the part of the index of their tile, of which -1 and 8
+    // lie in the next ones, and of their place in it.
+    int beside[3][3], place[3][3];
+    for (int a = 0, step = 9, stride = 64; a < 3; ++a, step /= 3, stride /= 8) {
+        for (int i = 0; i < 3; ++i) {
+            const int at = leaf[a] + i - 1;
+            beside[a][i] = step * ((at >> 3) + 1);
+            place[a][i] = stride * (at & 7);
+        }
+    }
+    std::int32_t* out = neighbours[n].data();
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            for (int k = 0; k < 3; ++k) {
+                const int side = beside[0][i] + beside[1][j] + beside[2][k];
+                const std::int32_t t = tile.near[std::size_t(side)];
+                const int at = place[0][i] + place[1][j] + place[2][k];
+                *out++ = t < 0 ? noLeaf : tiles[std::size_t(t)].leaves[std::size_t(at)];
+            }
+        }
+    }
 }
 
 LeafTable::LeafTable(std::vector<Coord> origins) : active_(origins.size())
@@ -124,20 +157,13 @@ LeafTable::LeafTable(std::vector<Coord> origins) : active_(origins.size())
             std::int32_t(n);
     }
 
+    for (Tile& tile : l.tiles) {
+        for (int k = 0; k < 27; ++k)
+            tile.near[std::size_t(k)] = l.slots[l.slotOf(tile.place + offsetOf(k))];
+    }
     l.neighbours.resize(l.origins.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, l.origins.size(), 256), [&](auto range) {
-        for (std::size_t n = range.begin(); n != range.end(); ++n) {
-            const Coord origin = l.origins[n], leaf = (origin >> 3) & 7;
-            const Tile& tile = l.tiles[std::size_t(l.slots[l.slotOf(origin >> 6)])];
-            for (int k = 0; k < 27; ++k) {
-                const int dx = k / 9 - 1, dy = k / 3 % 3 - 1, dz = k % 3 - 1;
-                const int x = leaf.x() + dx, y = leaf.y() + dy, z = leaf.z() + dz;
-                l.neighbours[n][std::size_t(k)] =
-                    ((x | y | z) & ~7) == 0
-                        ? tile.leaves[std::size_t(64 * x + 8 * y + z)]
-                        : l.find(origin.offsetBy(leafDim * dx, leafDim * dy, leafDim * dz));
-            }
-        }
+        for (std::size_t n = range.begin(); n != range.end(); ++n) l.findNeighbours(n);
     });
     layout_ = std::move(layout);
 }
@@ -161,33 +187,48 @@ namespace
 constexpr std::uint64_t rowEnd = 0x8080808080808080ull; // z = 7 of all rows
 constexpr std::uint64_t rowBegin = 0x0101010101010101ull;
 
-/// One yz plane of 8 x 8 voxels and the planes of the leaves about it. Voxel (y, z) is bit 8 y + z:
-/// a step along y shifts by 8, one along z by 1 but for the ends of rows.
-struct Planes {
-    std::uint64_t at[3][3]; // [dy + 1][dz + 1]
-};
+/// The words of the 27 leaves about one; of a leaf that is missing, zeros.
+using NearWords = std::array<const std::uint64_t*, 27>;
 
-/// The voxels of the centre plane that have a voxel of the set within one step in y or z.
-std::uint64_t spreadFace(const Planes& p)
+/// The voxels of word x, a yz plane of a leaf, that have a voxel of the set within one step in z.
+/// Voxel (y, z) is bit 8 y + z: a step along z shifts by 1 but for the ends of rows.
+MOLSURF_INLINE std::uint64_t spreadZ(const NearWords& near, int k, int x)
 {
-    const std::uint64_t c = p.at[1][1];
-    std::uint64_t out = c | (c << 8) | (c >> 8);
-    out |= p.at[0][1] >> 56 | p.at[2][1] << 56;
-    out |= (c & ~rowEnd) << 1 | (c & ~rowBegin) >> 1;
-    out |= (p.at[1][0] & rowEnd) >> 7 | (p.at[1][2] & rowBegin) << 7;
-    return out;
+    const std::uint64_t c = near[std::size_t(k)][x];
+    return c | (c & ~rowEnd) << 1 | (c & ~rowBegin) >> 1 |
+           (near[std::size_t(k - 1)][x] & rowEnd) >> 7 |
+           (near[std::size_t(k + 1)][x] & rowBegin) << 7;
 }
 
-/// The same for one step in y and one in z.
-std::uint64_t spreadFull(const Planes& p)
+/// The same for one step in z and one in y, which shifts by 8.
+MOLSURF_INLINE std::uint64_t spreadYZ(const NearWords& near, int k, int x)
 {
-    std::uint64_t alongZ[3];
-    for (int i = 0; i < 3; ++i) {
-        const std::uint64_t c = p.at[i][1];
-        alongZ[i] = c | (c & ~rowEnd) << 1 | (c & ~rowBegin) >> 1 | (p.at[i][0] & rowEnd) >> 7 |
-                    (p.at[i][2] & rowBegin) << 7;
+    const std::uint64_t c = spreadZ(near, k, x);
+    return c | c << 8 | c >> 8 | spreadZ(near, k - 3, x) >> 56 | spreadZ(near, k + 3, x) << 56;
+}
+
+/// A step to the 6 neighbours.
+MOLSURF_KERNEL void spreadFaces(const NearWords& near, std::uint64_t* out)
+{
+    const std::uint64_t* c = near[centreNeighbour];
+    std::uint64_t x[10];
+    x[0] = near[centreNeighbour - 9][7];
+    std::copy_n(c, 8, x + 1);
+    x[9] = near[centreNeighbour + 9][0];
+    for (int i = 0; i < 8; ++i) {
+        out[i] = spreadZ(near, centreNeighbour, i) | x[i] | x[i + 2] | c[i] << 8 | c[i] >> 8 |
+                 near[centreNeighbour - 3][i] >> 56 | near[centreNeighbour + 3][i] << 56;
     }
-    return alongZ[1] | alongZ[1] << 8 | alongZ[1] >> 8 | alongZ[0] >> 56 | alongZ[2] << 56;
+}
+
+/// A step to the 26 neighbours.
+MOLSURF_KERNEL void spreadCube(const NearWords& near, std::uint64_t* out)
+{
+    std::uint64_t x[10];
+    x[0] = spreadYZ(near, centreNeighbour - 9, 7);
+    for (int i = 0; i < 8; ++i) x[i + 1] = spreadYZ(near, centreNeighbour, i);
+    x[9] = spreadYZ(near, centreNeighbour + 9, 0);
+    for (int i = 0; i < 8; ++i) out[i] = x[i] | x[i + 1] | x[i + 2];
 }
 
 /// The box of the voxels of a mask that is not empty.
@@ -215,9 +256,8 @@ struct Extent {
     }
 
     /// Whether a voxel of the leaf at an offset lies within a number of steps of the box.
-    bool reaches(int dx, int dy, int dz, int steps) const
+    bool reaches(const Coord& offset, int steps) const
     {
-        const int offset[3] = {dx, dy, dz};
         for (int a = 0; a < 3; ++a) {
             if (offset[a] < 0 && low[a] - steps >= 0) return false;
             if (offset[a] > 0 && high[a] + steps < leafDim) return false;
@@ -231,22 +271,14 @@ struct Extent {
 LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks, std::size_t n,
                      bool full)
 {
-    const auto& near = table.neighbours(n);
-    const auto plane = [&](int x, int dy, int dz) -> std::uint64_t {
-        const int dx = x < 0 ? 0 : x > 7 ? 2 : 1;
-        const std::int32_t m = near[9 * dx + 3 * dy + dz];
-        return m == noLeaf ? 0 : masks[m].words[x & 7];
-    };
-    LeafMask out;
-    std::uint64_t spread[10], plain[10];
-    for (int x = -1; x <= 8; ++x) {
-        Planes p;
-        for (int i = 0; i < 9; ++i) p.at[i / 3][i % 3] = plane(x, i / 3, i % 3);
-        plain[x + 1] = p.at[1][1];
-        spread[x + 1] = full ? spreadFull(p) : spreadFace(p);
+    static const LeafMask none;
+    NearWords near;
+    for (std::size_t k = 0; k < 27; ++k) {
+        const std::int32_t m = table.neighbours(n)[k];
+        near[k] = (m == noLeaf ? none : masks[std::size_t(m)]).words.data();
     }
-    const std::uint64_t* sides = full ? spread : plain;
-    for (int x = 0; x < 8; ++x) out.words[x] = sides[x] | spread[x + 1] | sides[x + 2];
+    LeafMask out;
+    full ? spreadCube(near, out.words.data()) : spreadFaces(near, out.words.data());
     return out;
 }
 
@@ -259,9 +291,10 @@ LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progre
         const Extent extent(active);
         for (int k = 0; k < 27; ++k) {
             if (table.neighbours(n)[k] != noLeaf) continue;
-            const int dx = k / 9 - 1, dy = k / 3 % 3 - 1, dz = k % 3 - 1;
-            if (!extent.reaches(dx, dy, dz, steps)) continue;
-            added.push_back(table.origin(n).offsetBy(leafDim * dx, leafDim * dy, leafDim * dz));
+            const Coord offset = offsetOf(k);
+            if (!extent.reaches(offset, steps)) continue;
+            added.push_back(table.origin(n).offsetBy(leafDim * offset.x(), leafDim * offset.y(),
+                                                     leafDim * offset.z()));
         }
     }
     tbb::parallel_sort(added.begin(), added.end(), before);
@@ -311,7 +344,10 @@ LeafTable filtered(const LeafTable& table, const F& keep)
 
 LeafTable pruned(const LeafTable& table)
 {
-    return filtered(table, [&](std::size_t n) { return table.active(n).any(); });
+    const auto kept = [&](std::size_t n) { return table.active(n).any(); };
+    std::size_t n = 0;
+    while (n < table.size() && kept(n)) ++n;
+    return n == table.size() ? table : filtered(table, kept);
 }
 
 LeafTable emptied(LeafTable table)

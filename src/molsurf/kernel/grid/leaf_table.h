@@ -121,7 +121,8 @@ public:
 private:
     /// The leaves of 64^3 voxels.
     struct Tile {
-        openvdb::Coord place; ///< of its first voxel, over 64
+        openvdb::Coord place;              ///< of its first voxel, over 64
+        std::array<std::int32_t, 27> near; ///< indices of the tiles about it, or -1
         std::array<std::int32_t, 512> leaves;
     };
 
@@ -134,6 +135,7 @@ private:
 
         std::size_t slotOf(const openvdb::Coord& place) const;
         std::int32_t find(const openvdb::Coord& voxel) const;
+        void findNeighbours(std::size_t n);
     };
 
     std::shared_ptr<const Layout> layout_;

@@ -44,6 +44,26 @@ MOLSURF_KERNEL void cutOff(const float* in, const LeafMask& active, float most, 
     }
 }
 
+/// OpenVDB's flood fill of the tiles inside. Inside leaves the signs are known, and the filling
+/// would guess them along rows; a node of 4096^3 voxels whose children all end outside has its
+/// tiles outside, as it was made.
+struct FillTiles : openvdb::tools::SignedFloodFillOp<openvdb::FloatTree> {
+    using Root = openvdb::FloatTree::RootNodeType;
+    using Upper = Root::ChildNodeType;
+    static constexpr openvdb::Index aboveLeaves = 1;
+
+    explicit FillTiles(const openvdb::FloatTree& tree) : SignedFloodFillOp(tree, aboveLeaves) {}
+
+    using SignedFloodFillOp::operator();
+    void operator()(Upper& node) const
+    {
+        auto child = node.cbeginChildOn();
+        bool inside = child && child->getFirstValue() < 0.0f;
+        for (; child && !inside; ++child) inside = child->getLastValue() < 0.0f;
+        if (inside) SignedFloodFillOp::operator()(node);
+    }
+};
+
 } // namespace
 
 openvdb::FloatGrid::Ptr toLevelSet(const SparseField& field, double halfWidth,
@@ -68,11 +88,8 @@ openvdb::FloatGrid::Ptr toLevelSet(const SparseField& field, double halfWidth,
     for (Leaf* leaf : leaves) {
         if (leaf) grid->tree().addLeaf(leaf);
     }
-    // Inside leaves the signs are known; the filling would guess them along rows.
-    constexpr bool threaded = true;
-    constexpr std::size_t grainSize = 1;
-    constexpr openvdb::Index aboveLeaves = 1;
-    openvdb::tools::signedFloodFill(grid->tree(), threaded, grainSize, aboveLeaves);
+    openvdb::tree::NodeManager<openvdb::FloatTree> nodes(grid->tree());
+    nodes.foreachBottomUp(FillTiles(grid->tree()));
     return grid;
 }
 
