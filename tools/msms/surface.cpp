@@ -208,9 +208,9 @@ void measureMesh(Component& component, const Progress& progress)
 {
     const Mesh& mesh = component.mesh;
     const std::vector<std::uint32_t> onePiece(mesh.positions.size(), 0);
-    std::size_t flat = 0;
+    TriangleSums ignored;
     const PieceMeasure sum =
-        measurePieces(mesh, onePiece, 1, Vec3d(mesh.positions[0]), flat, progress)[0];
+        measurePieces(mesh, onePiece, 1, Vec3d(mesh.positions[0]), ignored, progress)[0];
     component.meshArea = sum.area;
     component.volume = sum.volume;
 }

@@ -115,37 +115,20 @@ std::vector<PieceMeasure> wholePieces(const Placement::Unit& unit, const BorderF
     return out;
 }
 
-/// The connected pieces of a unit.
-struct UnitPieces {
-    std::vector<std::uint32_t> of; ///< of each vertex
-    std::vector<PieceMeasure> measures;
-};
-
-UnitPieces unitPieces(const Mesh& mesh, const Vec3d& centre, SurfaceReport& surface,
-                      const Progress& progress)
-{
-    UnitPieces out;
-    std::size_t count = 0;
-    surface.degenerateTriangles = 0;
-    out.of = connectedPieces(mesh, count, progress);
-    out.measures =
-        measurePieces(mesh, out.of, count, centre, surface.degenerateTriangles, progress);
-    return out;
-}
-
 /// Fills in the measures of the whole of a unit: areas are those of the surface that was found,
 /// volumes those that the fitted one encloses.
 void measureWhole(const Placement::Unit& unit, const BorderFit& fit, const Mesh& mesh,
-                  const UnitPieces& found, const Progress& progress, SurfaceReport& surface)
+                  const MeshPieces& found, const Progress& progress, SurfaceReport& surface)
 {
-    UnitPieces fitted = unitPieces(mesh, unit.centre, surface, progress);
+    MeshPieces fitted = piecesOf(mesh, unit.centre, progress);
+    surface.degenerateTriangles = fitted.triangles.flat;
     for (PieceMeasure& piece : fitted.measures) piece.area = 0.0;
     std::vector<char> counted(found.measures.size(), 0);
     for (std::size_t v = 0; v < found.of.size(); ++v)
         if (!std::exchange(counted[found.of[v]], 1))
             fitted.measures[fitted.of[v]].area += found.measures[found.of[v]].area;
     countPieces(wholePieces(unit, fit, fitted.of, fitted.measures), surface);
-    surface.triangleArea = double(unit.inverse.size()) * triangleArea(mesh, progress);
+    surface.triangleArea = double(unit.inverse.size()) * fitted.triangles.area;
     BorderClasses classes(unit, fit.shared, mesh.positions.size());
     const std::size_t units = unit.inverse.size();
     surface.triangles = units * mesh.triangles.size();
@@ -248,7 +231,7 @@ MolecularSurface runUnit(const BallSet& atoms, const SurfaceOptions& options, Pr
         throw Error(ErrorKind::Numeric, "mesh: nothing of the unit is left at this resolution "
                                         "[hint: a smaller `voxel`]");
     SurfaceReport& surface = run.result().report.surface;
-    const UnitPieces found = unitPieces(part.mesh, unit.centre, surface, progress);
+    const MeshPieces found = piecesOf(part.mesh, unit.centre, progress);
     const std::optional<int> euler = eulerOfParts(placement, part);
     const BorderFit fit = fitBorder(placement, options.voxel, part);
     std::vector<float> slopes;

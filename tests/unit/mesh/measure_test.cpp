@@ -105,13 +105,13 @@ TEST(Measure, VolumesOfClosedPiecesHaveNoOrigin)
 {
     const Mesh mesh = test::meshOf(test::torus(3.4, 1.5), 0.25);
     const std::vector<std::uint32_t> pieces(mesh.positions.size(), 0);
-    std::size_t flat = 0;
+    TriangleSums sums;
     const auto volumeAbout = [&](const Vec3d& origin) {
-        return measurePieces(mesh, pieces, 1, origin, flat, Progress())[0].volume;
+        return measurePieces(mesh, pieces, 1, origin, sums, Progress())[0].volume;
     };
     const double here = volumeAbout(Vec3d(mesh.positions[0]));
     EXPECT_NEAR(volumeAbout(Vec3d(300.0, -200.0, 500.0)), here, 1e-6);
-    EXPECT_EQ(flat, 0u);
+    EXPECT_EQ(sums.flat, 0u);
 }
 
 TEST(Measure, OfNothingIsZero)

@@ -112,6 +112,8 @@ TEST(Specks, GoFromMeshAndLevelSet)
         EXPECT_LT(mesh.positions.size(), vertices);
         EXPECT_EQ(pieces.measures.size(), 1u);
         EXPECT_EQ(pieces.of.size(), mesh.positions.size());
+        const double area = piecesOf(mesh).triangles.area;
+        EXPECT_NEAR(pieces.triangles.area, area, 1e-9 * area);
         EXPECT_EQ(mesh.triangles.size(), clean) << place;
         EXPECT_TRUE(checkTopology(mesh, Progress()).closed);
         // The level set alone gives the same mesh.

@@ -4,12 +4,10 @@
 /// @file
 /// Area, volume and topology of the smooth surface behind a mesh.
 
-#include "molsurf/kernel/core/parallel.h"
 #include "molsurf/mesh.h"
 #include "molsurf/progress.h"
 #include "molsurf/report.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -29,46 +27,40 @@ struct PieceMeasure {
     }
 };
 
+/// Sums over the triangles themselves.
+struct TriangleSums {
+    double area = 0.0;    ///< [Å^2]
+    std::size_t flat = 0; ///< triangles without area
+
+    TriangleSums& operator+=(const TriangleSums& other)
+    {
+        area += other.area;
+        flat += other.flat;
+        return *this;
+    }
+};
+
 /// Area and volume of the pieces of a mesh, which need not be closed, as measure() takes them.
 /// @param[in]  pieces  of the vertices, less than count
 /// @param[in]  origin  of the volumes [Å]
-/// @param[out] flat    raised by the number of triangles without area
+/// @param[out] sums    raised by those of the triangles
 std::vector<PieceMeasure> measurePieces(const Mesh& mesh, const std::vector<std::uint32_t>& pieces,
                                         std::size_t count, const openvdb::Vec3d& origin,
-                                        std::size_t& flat, const Progress& progress);
+                                        TriangleSums& sums, const Progress& progress);
 
 /// The connected pieces of a mesh, which need not be closed.
 struct MeshPieces {
     std::vector<std::uint32_t> of;      ///< the piece of each vertex
     std::vector<PieceMeasure> measures; ///< of each piece
-    std::size_t flat = 0;               ///< triangles without area
+    TriangleSums triangles;             ///< of the whole mesh
 };
 
 /// Finds and measures the pieces.
-/// @param[in] mesh  with normals
+/// @param[in] mesh    with normals
+/// @param[in] origin  of the volumes [Å]; the first vertex, if none is given, so that they do not
+/// cancel far from the origin
 MeshPieces piecesOf(const Mesh& mesh, const Progress& progress);
-
-/// The sum of f(a, b, c) over the triangles, of their corners [Å].
-template<typename F>
-double sumOverTriangles(const Mesh& mesh, const Progress& progress, const F& f)
-{
-    constexpr std::size_t chunk = 4096;
-    const std::size_t count = mesh.triangles.size();
-    return parallelSum<double>((count + chunk - 1) / chunk, progress, [&](std::size_t c) {
-        double sum = 0.0;
-        for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
-            const auto& t = mesh.triangles[i];
-            const auto corner = [&](int k) {
-                return openvdb::Vec3d(mesh.positions[t[std::size_t(k)]]);
-            };
-            sum += f(corner(0), corner(1), corner(2));
-        }
-        return sum;
-    });
-}
-
-/// The area of the triangles themselves [Å^2].
-double triangleArea(const Mesh& mesh, const Progress& progress);
+MeshPieces piecesOf(const Mesh& mesh, const openvdb::Vec3d& origin, const Progress& progress);
 
 /// Adds closed pieces to areas and volumes: components, and cavities, whose volume is negative.
 void countPieces(const std::vector<PieceMeasure>& pieces, SurfaceReport& report);

@@ -45,6 +45,13 @@ struct Piece {
     std::vector<std::size_t> triangles;
 };
 
+double triangleArea(const Mesh& mesh, std::size_t triangle)
+{
+    const auto& t = mesh.triangles[triangle];
+    const Vec3d a(mesh.positions[t[0]]);
+    return 0.5 * (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a).length();
+}
+
 /// The winding number of a piece about a point, without sign, by the solid angles of its triangles:
 /// 1 within it, 0 outside.
 double coverOf(const Mesh& mesh, const Piece& piece, const Vec3d& x)
@@ -239,6 +246,13 @@ std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
     }
     for (std::size_t p = 0; p < count; ++p)
         if (small[p]) fill(mesh, specks[p], surface);
+    for (const Piece& speck : specks) {
+        for (const std::size_t t : speck.triangles) {
+            const double area = triangleArea(mesh, t);
+            pieces.triangles.area -= area;
+            pieces.triangles.flat -= area == 0.0;
+        }
+    }
 
     std::vector<std::uint32_t> kept = removePieces(pieces, small, mesh);
     std::vector<std::uint32_t> places(count);

@@ -18,27 +18,54 @@ namespace molsurf
 namespace
 {
 
-/// Calls f(triangle) for all triangles, by all threads at once.
+constexpr std::size_t perBlock = 1024; // triangles that a thread takes at once
+
+/// Calls f(i) for the numbers below count, by all threads at once.
 template<typename F>
-void forEachTriangle(const Mesh& mesh, const Progress& progress, const F& f)
+void forEach(std::size_t count, const Progress& progress, const F& f)
 {
-    constexpr std::size_t block = 1024;
-    const std::size_t count = mesh.triangles.size();
-    parallelFor((count + block - 1) / block, progress, [&](std::size_t b) {
-        const std::size_t end = std::min(count, (b + 1) * block);
-        for (std::size_t i = b * block; i < end; ++i) f(std::uint32_t(i));
+    parallelFor((count + perBlock - 1) / perBlock, progress, [&](std::size_t b) {
+        const std::size_t end = std::min(count, (b + 1) * perBlock);
+        for (std::size_t i = b * perBlock; i < end; ++i) f(std::uint32_t(i));
     });
 }
 
+/// The triangles that have a corner in a set, in ascending order.
+std::vector<std::uint32_t> trianglesAt(const Mesh& mesh, const VertexSet& some,
+                                       const Progress& progress)
+{
+    const std::size_t count = mesh.triangles.size();
+    std::vector<std::vector<std::uint32_t>> found((count + perBlock - 1) / perBlock);
+    parallelFor(found.size(), progress, [&](std::size_t b) {
+        const std::size_t end = std::min(count, (b + 1) * perBlock);
+        for (std::size_t first = b * perBlock; first < end; first += 64) {
+            std::uint64_t met = 0; // few are
+            for (std::size_t i = first; i < std::min(end, first + 64); ++i) {
+                const auto& t = mesh.triangles[i];
+                met |= std::uint64_t(some.has(t[0]) | some.has(t[1]) | some.has(t[2]))
+                       << (i - first);
+            }
+            for (; met != 0; met &= met - 1)
+                found[b].push_back(std::uint32_t(first) + std::uint32_t(__builtin_ctzll(met)));
+        }
+    });
+    std::vector<std::uint32_t> out;
+    for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+    return out;
+}
+
 /// Counting sort of triangles by the places of their corners, by all threads at once.
-/// @param[in] visit  visit(i, take) calls take(place) for corners of triangle i
-template<typename F>
-VertexTriangles listed(const Mesh& mesh, std::size_t places, const Progress& progress,
-                       const F& visit)
+/// @param[in] count     of the triangles
+/// @param[in] triangle  the i-th of them
+/// @param[in] visit     visit(triangle, take) calls take(place) for corners of a triangle
+template<typename Triangle, typename Visit>
+VertexTriangles listed(std::size_t count, const Triangle& triangle, std::size_t places,
+                       const Progress& progress, const Visit& visit)
 {
     constexpr auto relaxed = std::memory_order_relaxed;
     std::vector<std::atomic<std::uint32_t>> next(places); // place in the list
-    forEachTriangle(mesh, progress, [&](std::uint32_t i) {
+    forEach(count, progress, [&](std::uint32_t n) {
+        const std::uint32_t i = triangle(n);
         visit(i, [&](std::uint32_t place) { next[place].fetch_add(1, relaxed); });
     });
     VertexTriangles out;
@@ -48,7 +75,8 @@ VertexTriangles listed(const Mesh& mesh, std::size_t places, const Progress& pro
         next[n].store(out.begins[n], relaxed);
     }
     out.triangles.resize(out.begins.back());
-    forEachTriangle(mesh, progress, [&](std::uint32_t i) {
+    forEach(count, progress, [&](std::uint32_t n) {
+        const std::uint32_t i = triangle(n);
         visit(i,
               [&](std::uint32_t place) { out.triangles[next[place].fetch_add(1, relaxed)] = i; });
     });
@@ -63,27 +91,29 @@ VertexTriangles listed(const Mesh& mesh, std::size_t places, const Progress& pro
 
 VertexTriangles vertexTriangles(const Mesh& mesh)
 {
-    return listed(mesh, mesh.positions.size(), Progress(), [&](std::uint32_t i, const auto& take) {
-        for (const std::uint32_t v : mesh.triangles[i]) take(v);
-    });
+    return listed(
+        mesh.triangles.size(), [](std::uint32_t n) { return n; }, mesh.positions.size(), Progress(),
+        [&](std::uint32_t i, const auto& take) {
+            for (const std::uint32_t v : mesh.triangles[i]) take(v);
+        });
 }
 
 VertexTriangles vertexTriangles(const Mesh& mesh, const VertexSet& some, const Progress& progress)
 {
-    return listed(mesh, some.size(), progress, [&](std::uint32_t i, const auto& take) {
-        for (const std::uint32_t v : mesh.triangles[i])
-            if (some.has(v)) take(some.place(v));
-    });
+    const std::vector<std::uint32_t> at = trianglesAt(mesh, some, progress);
+    return listed(
+        at.size(), [&](std::uint32_t n) { return at[n]; }, some.size(), progress,
+        [&](std::uint32_t i, const auto& take) {
+            for (const std::uint32_t v : mesh.triangles[i])
+                if (some.has(v)) take(some.place(v));
+        });
 }
 
 VertexSet withNeighbours(const Mesh& mesh, const VertexSet& some, const Progress& progress)
 {
     VertexSet all(mesh.positions.size());
-    forEachTriangle(mesh, progress, [&](std::uint32_t i) {
-        const auto& t = mesh.triangles[i];
-        if (some.has(t[0]) || some.has(t[1]) || some.has(t[2]))
-            for (const std::uint32_t v : t) all.add(v);
-    });
+    for (const std::uint32_t i : trianglesAt(mesh, some, progress))
+        for (const std::uint32_t v : mesh.triangles[i]) all.add(v);
     return all;
 }
 
@@ -256,7 +286,7 @@ std::vector<std::uint32_t> connectedPieces(const Mesh& mesh, std::size_t& count,
                                            const Progress& progress)
 {
     DisjointSets sets(mesh.positions.size());
-    forEachTriangle(mesh, progress, [&](std::uint32_t i) {
+    forEach(mesh.triangles.size(), progress, [&](std::uint32_t i) {
         sets.join(mesh.triangles[i][0], mesh.triangles[i][1]);
         sets.join(mesh.triangles[i][1], mesh.triangles[i][2]);
     });

@@ -54,9 +54,18 @@ std::vector<std::array<std::uint32_t, 2>> badEdges(const Mesh& mesh)
 /// The volume inside the triangles [Å^3].
 double flatVolume(const Mesh& mesh, const Progress& progress)
 {
+    constexpr std::size_t chunk = 4096;
+    const std::size_t count = mesh.triangles.size();
     const Vec3d origin(mesh.positions[0]);
-    return sumOverTriangles(mesh, progress, [&](const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-        return (a - origin).dot((b - a).cross(c - a)) / 6.0; // of edges, which do not cancel
+    return parallelSum<double>((count + chunk - 1) / chunk, progress, [&](std::size_t c) {
+        double sum = 0.0;
+        for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) {
+            const auto& t = mesh.triangles[i];
+            const Vec3d a(mesh.positions[t[0]]), ab = Vec3d(mesh.positions[t[1]]) - a,
+                                                 ac = Vec3d(mesh.positions[t[2]]) - a;
+            sum += (a - origin).dot(ab.cross(ac)) / 6.0; // of edges, which do not cancel
+        }
+        return sum;
     });
 }
 

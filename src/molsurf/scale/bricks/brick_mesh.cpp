@@ -163,7 +163,9 @@ BrickMesh cutBrick(Mesh mesh, std::vector<Coord> cells, const CoordBBox& box, co
     cells = {};
     std::size_t pieceCount = 0;
     const std::vector<std::uint32_t> pieces = connectedPieces(out.mesh, pieceCount, progress);
-    out.pieces = measurePieces(out.mesh, pieces, pieceCount, anchor, out.flat, progress);
+    TriangleSums sums;
+    out.pieces = measurePieces(out.mesh, pieces, pieceCount, anchor, sums, progress);
+    out.flat = sums.flat;
     std::vector<char> isBorder(count);
     for (std::size_t i = 0; i < keyed.size(); ++i) {
         const std::uint32_t v = place[keyed[i]];
