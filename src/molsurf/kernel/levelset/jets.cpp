@@ -63,7 +63,7 @@ MOLSURF_INLINE SplineJet jetAcross(const Corners& c, const float* t)
 }
 
 /// The jet of a point whose stencil crosses leaves; the column of rows is a template argument.
-MOLSURF_KERNEL void evaluateAcross(const Corners& c, const float* t, float scale, int lane,
+MOLSURF_INLINE void evaluateAcross(const Corners& c, const float* t, float scale, int lane,
                                    JetLanes& jets)
 {
     switch (c.first[2]) {
@@ -86,8 +86,8 @@ void jetsIn(const LeafBlock<float, 3>& c, const FootPoints::Lanes* y, const bool
     evaluateIn(c.at(0, 0, 0), c.strideX, c.strideY, y, which, jets);
 }
 
-void jetBeside(const SparseField& coefficients, std::int32_t leaf, const Vec3f& y, int lane,
-               JetLanes& jets)
+MOLSURF_KERNEL void jetBeside(const SparseField& coefficients, std::int32_t leaf, const Vec3f& y,
+                              int lane, JetLanes& jets)
 {
     alignas(64) static constexpr float none[leafSize] = {};
     const auto& near = coefficients.table.neighbours(leaf);

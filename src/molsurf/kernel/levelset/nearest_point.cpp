@@ -257,11 +257,15 @@ void nearestPoints(const LeafPoints& points, const Coord& origin, const LeafMask
         nearestInCube(s.nearX.data(), s.nearY.data(), s.nearZ.data(), near, cx, cy, cz, best,
                       least);
         const float reach2 = float(reach * reach);
-        for (int k = 0; k < cubeEdge * plane; ++k) {
-            const int v = 64 * (cubeEdge * bx + k / plane) +
-                          8 * (cubeEdge * by + k / cubeEdge % cubeEdge) + cubeEdge * bz +
-                          k % cubeEdge;
-            if (mask.on(v)) out[v] = least[k] <= reach2 ? s.index[s.nearIndex[best[k]]] : -1;
+        for (int row = 0; row < plane; ++row) { // of the voxels along z
+            const int at = 8 * (cubeEdge * bx + row / cubeEdge) + cubeEdge * by + row % cubeEdge;
+            const int bits = mask.row(at) >> (cubeEdge * bz);
+            for (int z = 0; z < cubeEdge; ++z) {
+                const int k = cubeEdge * row + z;
+                if ((bits >> z & 1) != 0)
+                    out[8 * at + cubeEdge * bz + z] =
+                        least[k] <= reach2 ? s.index[s.nearIndex[best[k]]] : -1;
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 #include "molsurf/kernel/levelset/redistance.h"
 
 #include "molsurf/kernel/core/parallel.h"
+#include "molsurf/kernel/core/simd.h"
 #include "molsurf/kernel/levelset/leaf_distances.h"
 #include "molsurf/kernel/levelset/seed_kinks.h"
 
@@ -14,6 +15,23 @@ namespace molsurf
 
 namespace
 {
+
+/// The voxels of a leaf that have a nearest seed; all get the distance that those beyond the band
+/// have.
+/// @param[in]  own       indices of the nearest seeds
+/// @param[in]  negative  the voxels inside
+/// @param[out] phi       -inside or outside
+MOLSURF_KERNEL void beginLeaf(const std::int32_t* own, const LeafMask& negative, float inside,
+                              float outside, float* phi, LeafMask& reached)
+{
+    const Ints bits = splat(1) << laneNumbers();
+    for (int row = 0; row < leafSize / floatLanes; ++row) {
+        const Ints in = (bits & negative.row(row)) != 0;
+        store(phi + floatLanes * row, in ? splat(-inside) : splat(outside));
+        const Ints known = (load(own + floatLanes * row) != splat(noSeed)) & bits;
+        reached.words[std::size_t(row >> 3)] |= std::uint64_t(bitsOf(known)) << (8 * (row & 7));
+    }
+}
 
 /// Replaces the nearest seed of each voxel of a leaf by its signed distance; makes voxels of the
 /// band active.
@@ -29,10 +47,7 @@ void takeDistances(LeafDistances leaf, const LeafMask& negative, const BandWidth
     std::int32_t own[leafSize];
     std::memcpy(own, phi, sizeof own);
     LeafMask reached;
-    for (int v = 0; v < leafSize; ++v) {
-        phi[v] = negative.on(v) ? float(-width.inside) : float(width.outside);
-        reached.set(v, own[v] != noSeed);
-    }
+    beginLeaf(own, negative, float(width.inside), float(width.outside), phi, reached);
     std::uint16_t voxels[leafSize];
     const int count = listOf(reached, voxels);
     float distance[leafSize];

@@ -6,6 +6,7 @@
 #include "molsurf/kernel/levelset/kink.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -57,20 +58,34 @@ bool isKinkBetween(const NearestSeeds& near, const Coord& origin, std::int32_t s
 /// The normals at the seeds of the voxels of a leaf and of those one step on.
 void gatherNormals(const NearestSeeds& near, const SeedBlock& index, Normals& normals)
 {
-    constexpr int dim = Normals::dim, count = dim * dim * dim;
-    constexpr int ahead = 24; // of reading a seed, to ask for it: they lie scattered in memory
-    std::int32_t own[count + ahead];
-    std::fill_n(own + count, ahead, noSeed);
+    constexpr int dim = Normals::dim;
+    constexpr int ahead = 3; // rows, to ask for seeds: they lie scattered in memory
+    static constexpr std::array<std::int32_t, dim> none = [] {
+        std::array<std::int32_t, dim> out{};
+        for (auto& seed : out) seed = noSeed;
+        return out;
+    }();
     for (float* numbers : normals.n)
-        std::fill_n(numbers, count, std::numeric_limits<float>::quiet_NaN());
-    for (int row = 0; row < dim * dim; ++row)
-        std::copy_n(index.at(row / dim, row % dim, 0), dim, own + dim * row);
+        std::fill_n(numbers, dim * dim * dim, std::numeric_limits<float>::quiet_NaN());
+    const std::int32_t* rows[dim * dim + ahead]; // that have a seed
+    int places[dim * dim], count = 0;
+    for (int row = 0; row < dim * dim; ++row) {
+        const std::int32_t* in = index.at(row / dim, row % dim, 0);
+        std::int32_t all = noSeed; // every bit
+        for (int z = 0; z < dim; ++z) all &= in[z];
+        rows[count] = in;
+        places[count] = dim * row;
+        count += all != noSeed;
+    }
+    std::fill_n(rows + count, ahead, none.data());
     for (int i = 0; i < count; ++i) {
-        const std::int32_t soon = own[i + ahead];
-        if (soon != noSeed) __builtin_prefetch(&near[soon]);
-        if (own[i] == noSeed) continue;
-        const Vec3f& n = near[own[i]].n;
-        for (int a = 0; a < 3; ++a) normals.n[a][i] = n[a];
+        for (int z = 0; z < dim; ++z) {
+            const std::int32_t seed = rows[i][z], soon = rows[i + ahead][z];
+            if (soon != noSeed) __builtin_prefetch(&near[soon]);
+            if (seed == noSeed) continue;
+            const Vec3f& n = near[seed].n;
+            for (int a = 0; a < 3; ++a) normals.n[a][places[i] + z] = n[a];
+        }
     }
 }
 

@@ -71,17 +71,6 @@ void closestPoints(const LeafBlock<float, 3>& c, const std::uint16_t* voxels, in
 
 } // namespace
 
-void setLane(const Seed& seed, const Vec3f& shift, int lane, FootPoints& feet)
-{
-    for (int a = 0; a < 3; ++a) {
-        feet.y[a][lane] = seed.y[a] + shift[a];
-        feet.n[a][lane] = seed.n[a];
-    }
-    for (int i = 0; i < 6; ++i) feet.A[i][lane] = seed.A[i];
-    feet.kappa[lane] = seed.kappa;
-    feet.gauss[lane] = seed.gauss;
-}
-
 int listOf(const LeafMask& mask, std::uint16_t* voxels)
 {
     int count = 0;

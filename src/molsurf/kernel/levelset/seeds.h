@@ -48,7 +48,16 @@ struct alignas(64) Seed {
 };
 
 /// @param[in] shift  from the first voxel of the seed's leaf to the origin of the lanes
-void setLane(const Seed& seed, const openvdb::Vec3f& shift, int lane, FootPoints& feet);
+inline void setLane(const Seed& seed, const openvdb::Vec3f& shift, int lane, FootPoints& feet)
+{
+    for (int a = 0; a < 3; ++a) {
+        feet.y[a][lane] = seed.y[a] + shift[a];
+        feet.n[a][lane] = seed.n[a];
+    }
+    for (int i = 0; i < 6; ++i) feet.A[i][lane] = seed.A[i];
+    feet.kappa[lane] = seed.kappa;
+    feet.gauss[lane] = seed.gauss;
+}
 
 /// One of vectors that are side by side.
 inline openvdb::Vec3f lane(const FootPoints::Lanes* v, int l)

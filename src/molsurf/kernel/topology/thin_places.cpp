@@ -5,6 +5,7 @@
 #include "molsurf/kernel/grid/leaf_block.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -57,6 +58,17 @@ struct SeedsAbout {
         }
     }
 
+    /// Those of a voxel of the leaf and of the next ones along the axes.
+    std::array<std::int32_t, 8> corners(int v) const
+    {
+        std::array<std::int32_t, 8> out;
+        const std::int32_t* at = block.at(v >> 6, v >> 3 & 7, v & 7);
+        for (int i = 0; i < 8; ++i)
+            out[std::size_t(i)] =
+                at[(i >> 2) * block.strideX + (i >> 1 & 1) * block.strideY + (i & 1)];
+        return out;
+    }
+
     /// Those of a cube of voxels.
     /// @param[in] v           a voxel of the leaf
     /// @param[in] first,last  from it, along each axis
@@ -75,7 +87,7 @@ struct SeedsAbout {
 
 /// Whether the closest points of the corners of a cell lie on one sheet: their normals have a long
 /// mean.
-bool onOneSheet(const NearestSeeds& near, const std::vector<std::int32_t>& corners)
+bool onOneSheet(const NearestSeeds& near, const std::array<std::int32_t, 8>& corners)
 {
     // Of 0.8 to 0.95 the smallest one with which bench/rotations.py finds the walls of 4AT1 and
     // 1AOI that it finds without.
@@ -104,11 +116,11 @@ std::vector<ThinPlace> thinPlacesIn(const NearestSeeds& near, std::size_t n, con
         if (offset.dot(own.n) > 0.0f || std::abs(offset.length() - float(depth)) > beside) return;
         const Coord voxel = origin.offsetBy(v >> 6, v >> 3 & 7, v & 7);
         if (!about) about.emplace(near, n);
-        std::vector<std::int32_t> corners = about->in(v, 0, 1);
+        const std::array<std::int32_t, 8> corners = about->corners(v);
         if (onOneSheet(near, corners)) return;
         const std::size_t known = out.size();
-        findThinPlaces(feetOf(near, std::move(corners), 0.0), voxel.asVec3d() + Vec3d(0.5), depth,
-                       out);
+        findThinPlaces(feetOf(near, {corners.begin(), corners.end()}, 0.0),
+                       voxel.asVec3d() + Vec3d(0.5), depth, out);
         if (out.size() == known) return;
         const std::vector<Vec3d> feet = feetOf(near, about->in(v, -1, 2), 0.5);
         for (std::size_t i = known; i < out.size(); ++i) out[i].near = feet;
