@@ -48,7 +48,7 @@ BallIndex::BallIndex(const std::vector<Ball>& balls, const CellSize& cell)
 void BallIndex::addLevel(const std::vector<Ball>& balls, const std::vector<std::int32_t>& members,
                          double cell)
 {
-    Level level{cell, 0.0, {}};
+    Level level{cell, 0.0, {}, 60};
     for (const std::int32_t i : members)
         level.largest = std::max(level.largest, double(balls[std::size_t(i)].radius));
     std::vector<std::pair<Coord, std::int32_t>> keyed(members.size());
@@ -70,7 +70,7 @@ void BallIndex::addLevel(const std::vector<Ball>& balls, const std::vector<std::
         count += i == 0 || !sameColumn(i, i - 1);
     }
     std::size_t capacity = 16;
-    while (capacity < 2 * count) capacity *= 2;
+    for (; capacity < 2 * count; capacity *= 2) --level.shift;
     level.columns.assign(capacity, Column{0, 0, 0, 0});
 
     for (std::size_t begin = 0, end; begin < keyed.size(); begin = end) {

@@ -132,7 +132,8 @@ private:
     struct Level {
         double cell;                 // edge [Å]
         double largest;              // radius [Å]
-        std::vector<Column> columns; // open addressing
+        std::vector<Column> columns; // open addressing; 2^(64 - shift) of them
+        int shift;
 
         openvdb::Coord cellOf(const openvdb::Vec3d& x) const
         {
@@ -141,10 +142,9 @@ private:
         /// The place of a column in the table, or the free one where it would stand.
         std::size_t position(std::uint64_t key) const
         {
-            // Fibonacci hashing (Knuth, The Art of Computer Programming 3, 6.4), all bits folded
-            // down.
-            const std::uint64_t hash = key * 0x9e3779b97f4a7c15ull;
-            std::size_t i = (hash ^ hash >> 32) & (columns.size() - 1);
+            // Fibonacci hashing (Knuth, The Art of Computer Programming 3, 6.4): the highest bits
+            // of the product, which depend on x, y and the block.
+            std::size_t i = (key ^ key >> 32) * 0x9e3779b97f4a7c15ull >> shift;
             while (columns[i].cells != 0 && columns[i].key != key)
                 i = (i + 1) & (columns.size() - 1);
             return i;
