@@ -340,9 +340,11 @@ CapFinder::CapFinder(const std::vector<PlacedBall>& balls)
         z_[i] = float(way.z());
         radius_[i] = float(balls[i].radius);
     }
-    for (std::size_t a = 0; exact && a < 3; ++a)
+    for (std::size_t a = 0; exact && a < 3; ++a) {
+        ways_[a].reserve(balls.size());
         for (const PlacedBall& ball : balls)
             ways_[a].push_back(offset(balls.front(), ball)[int(a)]);
+    }
 }
 
 double CapFinder::roundingOf(std::int32_t i) const
