@@ -17,7 +17,7 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The middles of cells of a sphere: those of 8 x 8 squares of equal angles on each face of a cube,
+/// The middles of cells of a sphere: those of 4 x 4 squares of equal angles on each face of a cube,
 /// and of their 4 x 4 parts. Two rows of four make a bundle; bundles of squares that follow each
 /// other lie on different sides.
 template<std::size_t Parts>
@@ -29,17 +29,13 @@ struct SphereCells {
 
     SphereCells()
     {
-        constexpr std::size_t bundles = squares / floatLanes, stride = 19; // no common divisor
+        constexpr std::size_t bundles = squares / floatLanes, stride = 7; // no common divisor
         double least = 1.0;
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t square = k / (Parts * Parts), part = k % (Parts * Parts);
-            const std::size_t bundle = square / floatLanes * stride % bundles;
-            constexpr std::size_t across = edge / 4, blocks = edge * across / 2; // of a face
-            const std::size_t lane = square % floatLanes;
-            const std::size_t face = bundle / blocks, block = bundle % blocks;
+            const std::size_t bundle = square / floatLanes * stride % bundles, face = bundle / 2;
+            const std::size_t row = 2 * (bundle % 2) + square % floatLanes / 4, column = square % 4;
             const auto at = [&](double down, double right) {
-                const std::size_t row = 2 * (block / across) + lane / 4;
-                const std::size_t column = 4 * (block % across) + lane % 4;
                 return direction(face, (double(row) + (double(part / Parts) + down) / Parts) / edge,
                                  (double(column) + (double(part % Parts) + right) / Parts) / edge);
             };
