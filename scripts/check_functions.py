@@ -21,7 +21,7 @@ WIDER = {"candidates": 10, "computeBrick": 9, "mergeBricks": 8, "surfaceOf": 7,
          "addArc": 7,
          # kernels: rows of fields, and what a loop carries along
          "nearestInCube": 9, "nearestOf": 8, "curvatureRows": 9, "carry": 8, "coefficientRows": 9,
-         "addVoxel": 9, "speedRows": 8, "metricAtFoot": 7, "farthestEnd": 9, "intersectCircle": 8, "relateAll": 8,
+         "addVoxel": 9, "speedRows": 8, "metricAtFoot": 7, "intersectCircle": 7, "relateAll": 8,
          "findGaps": 7, "findCovers": 7}
 
 

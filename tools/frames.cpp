@@ -7,6 +7,7 @@
 #include "outputs.h"
 #include "picture_atoms.h"
 #include "sidecar.h"
+#include "stop.h"
 #include "write_result.h"
 
 #include "molsurf/analysis/measures/tunnel_tracks.h"
@@ -240,6 +241,10 @@ private:
     int frames_ = 0;
 };
 
+/// The longest time that lines of a table wait if no other files go with them [s]. Putting a file
+/// in its place takes 10 ms, as long as three such frames of 3,000 atoms.
+constexpr double longestWait = 5.0;
+
 /// All frames of a call, one after the other.
 class FrameRun
 {
@@ -321,9 +326,20 @@ public:
         euler_ = known->second.euler;
     }
 
+    /// Puts the table in its place, if lines wait for that.
+    void keepLines()
+    {
+        if (!std::exchange(linesWait_, false)) return;
+        OutputFile file(tableName_, true);
+        writeFrameTable(table_, file);
+        ignoreSignals();
+        file.commit();
+    }
+
     /// @return the exit status
     int finish(Clock::time_point start)
     {
+        keepLines();
         OutputFiles files;
         for (auto& [output, file] : areas_) {
             if (ofTracks(output)) writeCsv(tracks_.table(), *file);
@@ -481,9 +497,12 @@ private:
         FrameRow row;
         table.add = [&](const Report& report, OutputFiles& files) {
             table_[fileOf(i)] = row = frameRow(fileOf(i), source_.number(i), options_, report);
-            if (tableName_.empty()) return;
+            linesWait_ = !tableName_.empty();
+            if (!linesWait_ || (files.empty() && secondsSince(kept_) < longestWait)) return;
             files.push_back(std::make_unique<OutputFile>(tableName_, true));
             writeFrameTable(table_, *files.back());
+            linesWait_ = false;
+            kept_ = Clock::now();
         };
         Report report;
         for (bool isMade = false; !isMade;) {
@@ -512,6 +531,8 @@ private:
     bool moves_;
     std::string tableName_, options_;
     FrameTable table_;
+    bool linesWait_ = false;                // for the table's next time in its place
+    Clock::time_point kept_ = Clock::now(); // the last one
     OpenShare share_;
     Report lastReport_;
     struct AreaFile {
@@ -540,7 +561,12 @@ int frames(const CommandLine& call, Clock::time_point start)
     FrameRun run(call, terminal);
     terminal.erase();
     run.introduce();
-    for (std::size_t i = 0; i < run.size(); ++i) run.build(i);
+    try {
+        for (std::size_t i = 0; i < run.size(); ++i) run.build(i);
+    } catch (...) {
+        run.keepLines();
+        throw;
+    }
     return run.finish(start);
 }
 

@@ -7,6 +7,7 @@ import json
 import re
 import unittest
 
+from kill import killed_at
 from needs import needs
 from test_meshes import accessor, read_glb
 from tool import CRAMBIN, DATA, FAST, ToolTest, read_ply
@@ -361,6 +362,29 @@ class Frames(ToolTest):
         self.check(1, *words, "--frames", "1-3", says="a.0001.vdb")
         self.check(0, *words, "--frames", "1", "--force")
         self.check(0, "info", "a.0001.vdb")
+
+    def test_the_lines_of_a_table_alone(self):
+        """They come together, at the latest at the end, be that an error's."""
+        frames = self.moved(3)
+        words = (CRAMBIN, "--surface", "sas", "--trajectory", "t.dcd", "--frames", "all", "-o", "a.csv")
+        (self.folder / "t.dcd").write_bytes(dcd(frames[:2] + [[(1e9, y, z) for x, y, z in frames[2]]]))
+        self.check(1, *words, says="frame 3: atom 1")
+        self.assertEqual([row["frame"] for row in self.table()], ["1", "2"])
+        before = self.table()
+        (self.folder / "t.dcd").write_bytes(dcd(frames))
+        self.check(0, *words, says=["3 frames, 2 done before"])
+        self.assertEqual([row["frame"] for row in self.table()], ["1", "2", "3"])
+        self.assertEqual(self.table()[:2], before)
+
+    @needs("strace")
+    def test_a_table_alone_is_put_in_its_place_once(self):
+        """By a run of less than five seconds; other files of a frame have their line with them."""
+        (self.folder / "t.dcd").write_bytes(dcd(self.moved(4)))
+        words = (CRAMBIN, "--surface", "sas", "--trajectory", "t.dcd", "--frames", "all", "-o", "a.csv", "--force")
+        for more, renames in (((), 1), (("-o", "b.json"), 4 * 3)):
+            for number, dies in ((renames + 1, False), (renames, True)):
+                self.assertEqual(killed_at("rename", number, (*words, *more), self.folder), dies)
+            self.check(0, *words)  # puts away what is left
 
     def test_files_that_options_name_count_by_their_content(self):
         table = self.folder / "t"

@@ -55,7 +55,7 @@ TEST(BoundaryCheck, PassesWhatIsRight)
 TEST(BoundaryCheck, TellsWhatDisagrees)
 {
     const Checked right(someBalls());
-    ASSERT_TRUE(right.boundary.estimate);
+    ASSERT_TRUE(right.boundary.components);
     ASSERT_GT(right.measure.pieces.size(), 1u);
 
     Checked area = right; // a loop too many
@@ -74,7 +74,13 @@ TEST(BoundaryCheck, TellsWhatDisagrees)
 
     Checked volume = right;
     volume.measure.pieces[0].volume *= 1.05;
-    EXPECT_NE(volume.verdict().find("power cells"), std::string::npos);
+    EXPECT_NE(volume.verdict().find("by lines"), std::string::npos);
+
+    // A ball that counts as hidden, with all of its faces: lines end on nothing there.
+    Checked hidden = right;
+    hidden.boundary.patches.erase(hidden.boundary.patches.begin() + 3);
+    hidden.measure.patchAreas.erase(hidden.measure.patchAreas.begin() + 3);
+    EXPECT_NE(hidden.verdict().find("by lines"), std::string::npos);
 
     Checked lost = right;
     lost.measure.pieces[0].outer = false;
@@ -82,7 +88,7 @@ TEST(BoundaryCheck, TellsWhatDisagrees)
     EXPECT_NE(lost.verdict().find("hang together"), std::string::npos);
 
     Checked joined = right;
-    --joined.boundary.estimate->components;
+    --*joined.boundary.components;
     EXPECT_NE(joined.verdict().find("hang together"), std::string::npos);
 
     Checked euler = right;

@@ -3,7 +3,6 @@
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/balls/ball_caps.h"
-#include "molsurf/kernel/balls/boundary_check.h"
 #include "molsurf/kernel/balls/circle_cover.h"
 #include "molsurf/kernel/balls/quad.h"
 #include "molsurf/kernel/core/disjoint_sets.h"
@@ -16,7 +15,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <unordered_map>
 
 namespace molsurf
 {
@@ -39,14 +37,12 @@ struct BallParts {
                                          // free; the caps themselves would take much memory
     std::vector<Arc> arcs;
     std::vector<Corner> corners;
-    CellVolume cells{}; // the sum of theirs
 
     void clear()
     {
         capOthers.clear();
         arcs.clear();
         corners.clear();
-        cells = {};
     }
 };
 
@@ -206,14 +202,16 @@ void dropPoints(const std::vector<PlacedBall>& balls, std::vector<BallParts>& al
 
 /// Numbers the parts of the union that hang together, each of which has a patch.
 /// @return how many there are
-std::size_t numberComponents(std::vector<Patch>& patches, DisjointSets& joined)
+std::size_t numberComponents(std::size_t balls, std::vector<Patch>& patches, DisjointSets& joined)
 {
-    std::unordered_map<std::uint32_t, std::int32_t> numbers; // of the roots
+    std::vector<std::int32_t> numbers(balls, -1); // of the roots
+    std::int32_t count = 0;
     for (Patch& patch : patches) {
-        const std::uint32_t root = joined.find(std::uint32_t(patch.ball));
-        patch.component = numbers.emplace(root, std::int32_t(numbers.size())).first->second;
+        std::int32_t& number = numbers[joined.find(std::uint32_t(patch.ball))];
+        if (number < 0) number = count++;
+        patch.component = number;
     }
-    return numbers.size();
+    return std::size_t(count);
 }
 
 /// The patches of exposed balls, for which there is the room for caps, arcs and corners.
@@ -272,11 +270,10 @@ class PartsFinder
 {
 public:
     /// @param[in] balls  kept by reference
-    PartsFinder(const std::vector<PlacedBall>& balls, Sampled sampled)
+    explicit PartsFinder(const std::vector<PlacedBall>& balls)
         : all((balls.size() + BallParts::balls - 1) / BallParts::balls), counts(balls.size()),
           exposed(balls.size()), joined(balls.size()), balls_(balls), finder_(balls),
-          hidden_(balls.size()), rays_(sampled == Sampled::Rays ? raysFor(balls.size()) : 0),
-          hiddenRays_(raysFor(hiddenShare * balls.size()))
+          hidden_(balls.size())
     {
     }
 
@@ -292,23 +289,9 @@ public:
     std::vector<std::uint8_t> exposed; // whether a ball has any part in the boundary
     DisjointSets joined;               // balls that overlap
 
-    /// Measures that follow from the overlaps, if all of them are known.
-    std::optional<UnionEstimate> estimate(std::size_t components) const
-    {
-        if (rays_ == 0) return {};
-        CellVolume sum{};
-        for (const BallParts& parts : all) {
-            sum.volume += parts.cells.volume;
-            sum.variance += parts.cells.variance;
-        }
-        return UnionEstimate{components, sum.volume, std::sqrt(sum.variance)};
-    }
     bool knowsOverlaps() const { return !anyLost_; }
 
 private:
-    /// A hidden ball's cell is small, and so is the spread of its rays: a quarter of them will do.
-    static constexpr std::size_t hiddenShare = 4;
-
     std::size_t end(std::size_t block) const
     {
         return std::min((block + 1) * BallParts::balls, balls_.size());
@@ -324,12 +307,13 @@ private:
             if (exposure.amongMany) anyLost_ = true;
             hidden_[n] = exposure.hidden || !exposure.possible;
             if (!exposure.possible) continue;
-            addCell(n, exposure.hidden, s);
+            // With balls that cover what others cover of a sphere, parts hang together as they do:
+            // where these had a ball in common with others, one of them would have it, too.
             const auto join = [&](std::int32_t other) {
-                if (other > i) joined.join(std::uint32_t(n), std::uint32_t(other));
+                joined.join(std::uint32_t(n), std::uint32_t(other));
             };
             if (exposure.hidden) {
-                s.finder.forEachMet(join);
+                std::for_each(s.finder.near.begin(), s.finder.near.end(), join);
                 continue;
             }
             std::for_each(s.caps.other.begin(), s.caps.other.end(), join);
@@ -339,16 +323,6 @@ private:
                                      s.caps.other.end());
         }
         all[block] = s.parts; // a copy takes no more memory than it needs
-    }
-
-    void addCell(std::size_t n, bool hidden, Scratch& s) const
-    {
-        if (rays_ == 0) return;
-        const CapLists& caps = hidden ? s.finder.met : s.caps.rounded;
-        const CellVolume cell =
-            sampleCell(caps, balls_[n].radius, std::int32_t(n), hidden ? hiddenRays_ : rays_);
-        s.parts.cells.volume += cell.volume;
-        s.parts.cells.variance += cell.variance;
     }
 
     /// Arcs and corners of the balls of a block. A circle on a hidden sphere has none.
@@ -391,17 +365,16 @@ private:
     tbb::enumerable_thread_specific<Scratch> scratches_;
     std::vector<std::uint8_t> hidden_; // whether no part of a sphere is free
     std::atomic<bool> anyLost_{false}; // a ball whose overlaps are not all known
-    std::size_t rays_, hiddenRays_;
 };
 
 /// The boundary of balls in general position.
 /// @throws SpecialPosition if they are not
-BallBoundary boundaryOf(std::vector<PlacedBall> placed, Sampled sampled, const Progress& progress)
+BallBoundary boundaryOf(std::vector<PlacedBall> placed, const Progress& progress)
 {
     BallBoundary boundary;
     boundary.balls = std::move(placed);
     const std::vector<PlacedBall>& balls = boundary.balls;
-    PartsFinder parts(balls, sampled);
+    PartsFinder parts(balls);
     parts.find(progress);
     dropPoints(balls, parts.all, parts.counts, parts.exposed);
     for (const BallParts& block : parts.all) {
@@ -417,12 +390,10 @@ BallBoundary boundaryOf(std::vector<PlacedBall> placed, Sampled sampled, const P
                                                 [&](const Patch& p) { return p.ball < first; });
         place(parts.all[c], std::size_t(first), parts.counts,
               std::size_t(patch - boundary.patches.begin()), boundary);
-        const CellVolume cells = parts.all[c].cells;
         parts.all[c] = BallParts();
-        parts.all[c].cells = cells;
     });
     if (parts.knowsOverlaps())
-        boundary.estimate = parts.estimate(numberComponents(boundary.patches, parts.joined));
+        boundary.components = numberComponents(balls.size(), boundary.patches, parts.joined);
     return boundary;
 }
 
@@ -431,32 +402,32 @@ BallBoundary boundaryOf(std::vector<PlacedBall> placed, Sampled sampled, const P
 void CapLists::resize(std::size_t count)
 {
     const std::size_t padded = count + std::size_t(floatLanes);
-    for (auto* list : {&x, &y, &z, &sine}) list->resize(padded);
-    cosine.resize(padded);
-    std::fill(cosine.begin() + std::ptrdiff_t(count), cosine.end(), 2.0f);
+    for (auto* list : {&x, &y, &z, &cosine, &sine})
+        if (list->size() < padded) list->resize(padded);
+    std::fill_n(cosine.begin() + std::ptrdiff_t(count), floatLanes, 2.0f);
+    count_ = int(count);
 }
 
 void CapLists::add(float ax, float ay, float az, float capCosine, float capSine)
 {
-    const auto i = std::size_t(size());
-    for (auto* list : {&x, &y, &z, &sine}) list->push_back(0.0f);
-    cosine.push_back(2.0f);
+    const auto i = std::size_t(count_++);
+    if (x.size() == i + floatLanes)
+        for (auto* list : {&x, &y, &z, &cosine, &sine}) list->push_back(0.0f);
     x[i] = ax;
     y[i] = ay;
     z[i] = az;
     cosine[i] = capCosine;
     sine[i] = capSine;
-}
-
-void CapLists::makeRoom(std::size_t count)
-{
-    resize(count);
-    std::fill(cosine.begin(), cosine.end(), 2.0f);
+    cosine[i + floatLanes] = 2.0f;
 }
 
 void CapLists::set(std::size_t i, const Cap& cap)
 {
-    set(i, cap, std::sqrt((1.0 - cap.cosine) * (1.0 + cap.cosine)));
+    x[i] = float(cap.axis.x());
+    y[i] = float(cap.axis.y());
+    z[i] = float(cap.axis.z());
+    cosine[i] = float(cap.cosine);
+    sine[i] = float(std::sqrt((1.0 - cap.cosine) * (1.0 + cap.cosine)));
 }
 
 Vec3d Arc::end(int which) const
@@ -500,14 +471,13 @@ bool capsOverlap(const BallBoundary& boundary, const Patch& patch, const Cap& a,
     return p.way.dot(q.way) / (lengthP * lengthQ) > cosineP * cosineQ - sines;
 }
 
-BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress,
-                          Sampled sampled)
+BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress)
 {
     // The chance that balls need another try is that of rounding in quadruple precision.
     constexpr std::uint64_t tries = 4;
     for (std::uint64_t salt = 0; salt < tries; ++salt) {
         try {
-            BallBoundary boundary = boundaryOf(placedBalls(balls, probe, salt), sampled, progress);
+            BallBoundary boundary = boundaryOf(placedBalls(balls, probe, salt), progress);
             if (cornersFit(boundary.arcs)) return boundary;
         } catch (const SpecialPosition&) {
         }

@@ -30,26 +30,19 @@ struct Cap {
 
 /// Caps of spheres as floats, a list for each number. Eight can be read at any place.
 struct CapLists {
-    std::vector<float> x, y, z; ///< of the axis
+    std::vector<float> x, y, z; ///< of the axis; each list has room for eight more at the end
     std::vector<float> cosine, sine;
 
-    CapLists() { clear(); }
-    int size() const { return int(x.size()) - floatLanes; }
+    CapLists() { resize(0); }
+    int size() const { return count_; }
     void clear() { resize(0); }
-    /// Keeps the first ones; what follows them covers nothing.
+    /// Keeps the first ones; what follows them covers nothing. Gives no memory back.
     void resize(std::size_t count);
-    /// Makes room for caps that set() is to give; until then they cover nothing.
-    void makeRoom(std::size_t count);
     void add(float ax, float ay, float az, float capCosine, float capSine);
     void set(std::size_t i, const Cap& cap);
-    void set(std::size_t i, const Cap& cap, double capSine)
-    {
-        x[i] = float(cap.axis.x());
-        y[i] = float(cap.axis.y());
-        z[i] = float(cap.axis.z());
-        cosine[i] = float(cap.cosine);
-        sine[i] = float(capSine);
-    }
+
+private:
+    int count_ = 0;
 };
 
 /// A sphere with a part that no other ball covers.
@@ -58,7 +51,7 @@ struct Patch {
     double radius;
     std::int32_t ball;                ///< place in BallBoundary::balls
     std::int32_t component;           ///< the part of the union that hangs together, from 0;
-                                      ///< -1: not known, as BallBoundary::estimate
+                                      ///< -1: not known, as BallBoundary::components
     std::uint32_t capsBegin, capsEnd; ///< its caps: the covered part, hardly any cap within another
     std::uint32_t arcsBegin, arcsEnd; ///< with later balls
     std::uint32_t cornersBegin, cornersEnd; ///< with two later balls
@@ -104,13 +97,6 @@ struct Corner {
     std::int32_t balls[3]; ///< places in BallBoundary::balls, ascending
 };
 
-/// Measures of a union that follow from the balls without its boundary.
-struct UnionEstimate {
-    std::size_t components; ///< parts that hang together, from overlaps
-    double volume;          ///< of all cells of the power diagram, sampled by rays [Å^3]
-    double error;           ///< its standard deviation [Å^3]
-};
-
 /// Everything that a point of the boundary can lie on. Lengths in Å.
 struct BallBoundary {
     std::vector<PlacedBall> balls; ///< whose boundary this is
@@ -119,11 +105,10 @@ struct BallBoundary {
     std::vector<std::int32_t> capOthers; ///< of each cap the other ball, its place in `balls`
     std::vector<Arc> arcs;
     std::vector<Corner> corners;
-    std::optional<UnionEstimate> estimate; ///< none where very many balls are near each other
+    /// Parts of the union that hang together, from overlaps; none where very many balls are near
+    /// each other.
+    std::optional<std::size_t> components;
 };
-
-/// Whether BallBoundary::estimate, which checkBoundary() reads, is sampled by rays.
-enum class Sampled { Rays, Nothing };
 
 /// Finds the boundary of the union of the balls of radius r_i + probe. Balls within another one,
 /// and all but the first of equal ones, have no part in it.
@@ -136,8 +121,7 @@ enum class Sampled { Rays, Nothing };
 /// @param[in] balls  every coordinate within 1e6 Å, radii > 0, both finite
 /// @param[in] probe  added to every radius [Å]
 /// @throws Error(ErrorKind::Check) if the parts do not fit together
-BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress,
-                          Sampled sampled = Sampled::Rays);
+BallBoundary ballBoundary(const std::vector<Ball>& balls, double probe, const Progress& progress);
 
 /// Whether another ball covers the point of a sphere in a direction, with the rounding of floats.
 inline bool isCovered(const BallBoundary& boundary, const Patch& patch,

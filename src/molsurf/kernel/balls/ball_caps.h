@@ -10,6 +10,7 @@
 #include "molsurf/kernel/balls/placed_ball.h"
 #include "molsurf/progress.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,25 +19,15 @@ namespace molsurf
 
 /// The caps of a sphere, number by number: loops over them vectorise.
 struct CapArrays {
-    std::vector<double> x, y, z, cosine, sine;
+    std::vector<double> x, y, z, cosine, sine; ///< longer, perhaps, than there are caps
     std::vector<std::int32_t> other;
     CapLists rounded; ///< the same as floats, padded
 
     int size() const { return int(other.size()); }
-    /// Makes room for caps that set() is to give; until then they cover nothing.
-    void makeRoom(std::size_t count);
-    /// Keeps the first of them.
-    void shrink(std::size_t count);
-    void set(std::size_t i, const Cap& cap, double capSine)
-    {
-        x[i] = cap.axis.x();
-        y[i] = cap.axis.y();
-        z[i] = cap.axis.z();
-        cosine[i] = cap.cosine;
-        sine[i] = capSine;
-        other[i] = cap.other;
-        rounded.set(i, cap, capSine);
-    }
+    /// Makes room, and gives no memory back.
+    void resize(std::size_t count);
+    /// Sets a cap, but for its floats.
+    void set(std::size_t i, const Cap& cap);
     Cap operator[](int k) const
     {
         const auto i = std::size_t(k);
@@ -66,6 +57,14 @@ struct Exposure {
     bool hidden;    ///< other balls surely cover all of its sphere
 };
 
+/// Some of the balls, as floats.
+struct RoundedBalls {
+    const float *x, *y, *z, *radius;
+};
+
+/// Ways to balls, coordinate by coordinate.
+using Ways = std::array<std::vector<double>, 3>;
+
 /// Finds the caps of balls. Safe to use from all threads, each with room of its own.
 class CapFinder
 {
@@ -75,30 +74,20 @@ public:
 
     /// Room for one ball, kept from ball to ball by a thread.
     struct Scratch {
-        std::vector<std::size_t> groups;
+        std::int32_t block = -1; // of eight balls, which have octets in common
+        std::vector<std::size_t> octets, groups;
         std::vector<std::int32_t> touching; // room for `near`
-        std::vector<std::int32_t> near;     // balls that touch it, by rounded places
-        std::vector<double> wayX, wayY, wayZ, radius, cosine, sine;
-        std::vector<std::int32_t> relation, bin, order;
+        std::vector<std::int32_t> near;     // others that touch it, by rounded places
+        CapArrays all;                      // of `near`
+        CapLists met;                       // some of these, the large ones first
+        std::vector<std::int32_t> relation, bin, places, kept;
+        std::vector<std::uint8_t> isKept;
         std::vector<Cap> found;
-        CapLists met; // the caps of `order`
-
-        Cap capAt(std::size_t k) const
-        {
-            return {openvdb::Vec3d(wayX[k], wayY[k], wayZ[k]), cosine[k], near[k]};
-        }
-
-        /// Calls f(j) for the balls that meet the one of the last find().
-        template<typename F>
-        void forEachMet(const F& f) const
-        {
-            for (const std::int32_t k : order) f(near[std::size_t(k)]);
-        }
     };
 
     /// The caps of a ball, the large ones first, without those that lie well within another one.
     /// Where very many balls are near each other, without those that its power cell does not touch.
-    /// Of a hidden ball there are only the floats of all caps, in scratch.met.
+    /// Of a hidden ball there are none, but balls that cover it, in scratch.near.
     Exposure find(std::int32_t i, Scratch& scratch, CapArrays& caps) const;
 
     /// The caps of a ball with others that find() has given, to the same bits.
@@ -107,12 +96,19 @@ public:
                    CapArrays& caps) const;
 
 private:
-    void relateNear(std::int32_t i, Scratch& scratch) const;
-    bool gather(std::int32_t i, Scratch& scratch) const;
+    bool findNear(std::int32_t i, Scratch& scratch) const;
+    bool keepNear(std::int32_t i, Scratch& scratch) const;
+    bool relate(std::int32_t i, const std::int32_t* near, std::size_t count, Scratch& scratch,
+                CapArrays& caps) const;
+    bool gather(std::int32_t i, Scratch& scratch, CapArrays& caps) const;
+    RoundedBalls rounded() const { return {x_.data(), y_.data(), z_.data(), radius_.data()}; }
+
+    /// The rounding of the place and radius of a ball to floats, and more [Å].
+    double roundingOf(std::int32_t i) const;
 
     const std::vector<PlacedBall>& balls_;
-    std::vector<float> x_, y_, z_, radius_; // of the balls, rounded
-    std::vector<openvdb::Vec3d> fromFirst_; // ways to the balls, if their differences are exact
+    std::vector<float> x_, y_, z_, radius_; // rounded, from the first ball
+    Ways ways_;                             // from there to the balls, if differences are exact
     BoxTree tree_;
     DenseCaps dense_;
 };

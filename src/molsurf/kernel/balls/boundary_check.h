@@ -8,31 +8,13 @@
 #include "molsurf/kernel/balls/boundary_measure.h"
 #include "molsurf/progress.h"
 
-#include <cstddef>
-#include <cstdint>
-
 namespace molsurf
 {
 
-/// The volume of a ball's cell in the power diagram, as far as it lies in the ball.
-struct CellVolume {
-    double volume;   ///< [Å^3]
-    double variance; ///< of the volume, estimated [Å^6]
-};
-
-/// Estimates the volume of the cell of a ball by rays from its centre: within the cell a ray runs
-/// between planes alone.
-/// @param[in] caps  of the ball's sphere
-/// @param[in] i     the ball's place; it chooses the directions
-/// @param[in] rays  a multiple of 16
-CellVolume sampleCell(const CapLists& caps, double radius, std::int32_t i, std::size_t rays);
-
-/// Rays for each of many balls, such that all cost about the same.
-std::size_t raysFor(std::size_t balls);
-
 /// Checks the measures of a boundary:
 /// - the area of every patch against the share of directions that no cap covers,
-/// - the volume, a flux through the boundary, against the sum of the cells of the power diagram,
+/// - the volume against the lengths of parallel lines within the boundary, whose ends are free by
+///   the caps alone,
 /// - the outer pieces against the parts of the union that hang together,
 /// - the Euler number of every piece, by corners, arcs and faces: even and at most 2.
 ///

@@ -78,7 +78,8 @@ std::vector<std::uint32_t> findLoops(const BallBoundary& boundary, const Sides& 
         CornerName corner;
         std::uint32_t side;
     };
-    std::vector<End> ends;
+    thread_local std::vector<End> ends;
+    ends.clear();
     for (std::size_t s = 0; s < sides.size(); ++s) {
         const Arc& arc = boundary.arcs[sides[s].arc];
         for (int e = 0; e < 2 && arc.ends[e] >= 0; ++e)
@@ -173,24 +174,27 @@ std::vector<Face> findFaces(const BallBoundary& boundary, const Patch& patch, co
     const std::vector<std::size_t> faceOf = findFaces(boundary, patch, sides, loop, loops);
     std::vector<Face> byLoop(loops);
     for (std::size_t l = 0; l < loops; ++l) ++byLoop[faceOf[l]].loops;
+    if (loops == 1) byLoop[0].arcs.reserve(sides.size());
     for (std::size_t s = 0; s < sides.size(); ++s) {
         const Arc& arc = boundary.arcs[sides[s].arc];
         const Cap cap = capOf(boundary, patch, sides[s].other);
         Face& face = byLoop[faceOf[loop[s]]];
         face.arcs.push_back(sides[s].arc);
-        const double angle = 2.0 * arc.half;
+        const double angle = 2.0 * arc.half, c = std::cos(arc.half), sine = std::sin(arc.half);
+        const Vec3d across = arc.axis.cross(arc.middle);
+        const Vec3d ends[2] = {c * arc.middle + -sine * across, c * arc.middle + sine * across};
         face.area += angle * cap.cosine;
         for (int e = 0; e < 2; ++e) {
             if (arc.ends[e] < sides[s].other) continue; // none, or the other arc there counts it
             const Cap next = capOf(boundary, patch, arc.ends[e]);
-            const Vec3d u = (arc.centre + arc.radius * arc.end(e) - patch.centre) / R;
+            const Vec3d u = (arc.centre + arc.radius * ends[e] - patch.centre) / R;
             const Vec3d a = u.cross(cap.axis), b = u.cross(next.axis);
             face.area -= std::atan2(a.cross(b).length(), a.dot(b)); // the exterior angle
         }
         // 1/2 of the integral of x cross dx, the face on the left: clockwise about the cap's axis
         const Vec3d m = arc.centre - patch.centre;
         // From the first end to the last about the arc's own axis.
-        const Vec3d chord = 2.0 * std::sin(arc.half) * arc.axis.cross(arc.middle);
+        const Vec3d chord = 2.0 * sine * across;
         face.normal -= 0.5 * sides[s].sign * arc.radius * m.cross(chord) +
                        0.5 * arc.radius * arc.radius * angle * cap.axis;
     }

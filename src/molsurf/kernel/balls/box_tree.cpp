@@ -57,6 +57,14 @@ BoxTree::BoxTree(const std::vector<Box>& boxes)
     }
 }
 
+void BoxTree::findOctets(const Box& box, std::vector<std::size_t>& octets) const
+{
+    octets.clear();
+    const auto add = [&](std::size_t octet) { octets.push_back(octet); };
+    if (levels_.size() == 1) add(0);
+    if (levels_.size() > 1) visit(rounded(box), levels_.size() - 1, 0, 1, add);
+}
+
 MOLSURF_KERNEL std::uint32_t BoxTree::meeting(const Level& level, std::size_t first,
                                               const Ends& box)
 {

@@ -54,7 +54,18 @@ public:
     template<typename F>
     void forEachNear(const Box& box, const F& f) const
     {
-        if (!levels_.empty()) visit(rounded(box), levels_.size() - 1, 0, f);
+        if (!levels_.empty()) visit(rounded(box), levels_.size() - 1, 0, 0, f);
+    }
+
+    /// The octets of eight consecutive groups that meet a box, in ascending order.
+    void findOctets(const Box& box, std::vector<std::size_t>& octets) const;
+
+    /// The same as the first, where the octets of a box about the given one are known.
+    template<typename F>
+    void forEachNear(const Box& box, const std::vector<std::size_t>& octets, const F& f) const
+    {
+        const Ends ends = rounded(box);
+        for (const std::size_t octet : octets) visit(ends, 0, group * octet, 0, f);
     }
 
 private:
@@ -68,16 +79,18 @@ private:
     /// One bit for each of the eight boxes from `first` that meets a box.
     static std::uint32_t meeting(const Level& level, std::size_t first, const Ends& box);
 
+    /// Calls f with the nodes of the last level.
     template<typename F>
-    void visit(const Ends& box, std::size_t level, std::size_t first, const F& f) const
+    void visit(const Ends& box, std::size_t level, std::size_t first, std::size_t last,
+               const F& f) const
     {
         for (std::uint32_t bits = meeting(levels_[level], first, box); bits != 0;
              bits &= bits - 1) {
             const std::size_t node = first + std::size_t(__builtin_ctz(bits));
-            if (level == 0) {
+            if (level == last) {
                 f(node);
             } else {
-                visit(box, level - 1, group * node, f);
+                visit(box, level - 1, group * node, last, f);
             }
         }
     }

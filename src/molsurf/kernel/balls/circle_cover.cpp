@@ -13,24 +13,19 @@ namespace molsurf
 
 using openvdb::Vec3d;
 
-void CircleCovers::resize(int count)
+void CircleCovers::resize(std::size_t count)
 {
-    const int padded = (count + doubleLanes - 1) / doubleLanes * doubleLanes;
-    for (auto* v : {&x, &y, &cosine, &error, &sure, &endX, &endY}) v->resize(std::size_t(padded));
-    std::fill(sure.begin() + count, sure.end(), 1.0); // nothing
+    for (auto* v : {&x, &y, &cosine, &error})
+        if (v->size() < count) v->resize(count);
 }
 
 namespace
 {
 
-/// Room by which covers overlap to count as such: more than all errors of what is sure.
-constexpr double coverMargin = 2e-9;
-
-// A cover is sure if its ends are known to 1e-9: the cosine to 1e-11, and that not near 1 or -1.
-constexpr double sureError = 1e-11, sureCosine = 1.0 - 1e-4;
-
 /// Places on a circle are taken from doubles if their error is below this.
 constexpr double largestError = 1e-10;
+
+using Bits __attribute__((aligned(4))) = std::uint32_t __attribute__((vector_size(32)));
 
 struct CapPointers {
     const double *x, *y, *z, *cosine;
@@ -41,8 +36,7 @@ struct CapPointers {
 /// @return whether one surely covers all of it
 MOLSURF_KERNEL bool intersectCircle(const Circle& circle, const CapPointers& caps, int count,
                                     double* __restrict x, double* __restrict y,
-                                    double* __restrict cosine, double* __restrict error,
-                                    double* __restrict sure)
+                                    double* __restrict cosine, double* __restrict error)
 {
     const Vec3d axis = circle.axis, e1 = circle.e1, e2 = circle.e2;
     const double height = circle.cosine, radius = circle.sine;
@@ -62,8 +56,6 @@ MOLSURF_KERNEL bool intersectCircle(const Circle& circle, const CapPointers& cap
         cosine[k] = c;
         error[k] = e;
         whole |= c < -1.0 - e ? 1 : 0;
-        const double known = e < sureError ? c : 1.0;
-        sure[k] = std::abs(known) < sureCosine ? known : 1.0;
     }
     return whole != 0;
 }
@@ -91,174 +83,99 @@ void RoundedCovers::resize(std::size_t count)
 namespace
 {
 
-/// Whether caps surely cover all of a circle, in floats: each of 16 equal parts of it lies in one
-/// of them. Most circles are covered well enough for that.
-///
-/// With the ends p and q of a part, a point of it is a p + b q, where a and b are not negative and
-/// 1 <= a + b <= 1/cos(pi/16). So u x + v y is at least the smaller of its values at p and q, or
-/// 1/cos(pi/16) times that if it is negative. Each lane does a part and its opposite.
-/// @param[out] f  of the caps looked at; all of them if the result is false
-MOLSURF_KERNEL bool isSurelyCovered(const Circle& circle, const CapLists& caps, RoundedCovers& f)
+/// Finds parts of a circle, of 32, that surely lie in a cover, in floats. Most circles are covered
+/// well enough for that. A direction (x, y) lies at 8 (1 - t) or, where y < 0, at 8 (3 + t) with t
+/// = x/(|x| + |y|), which grows from 0 to 32 as its angle does.
+/// @param[out] f  of the caps looked at, as keepCovers() takes it; all of them if a part is open
+/// @return a bit for each part
+MOLSURF_KERNEL std::uint32_t coveredParts(const Circle& circle, const CapLists& caps,
+                                          RoundedCovers& f)
 {
-    constexpr float rounding = 3e-6f, longest = 1.01960f; // 1/cos(pi/16) = 1.019591
-    constexpr int ahead = 4; // caps, large ones first, before it is asked whether they suffice
-    const Floats cosines[2] = {
-        {1.0f, 0.92387953f, 0.70710678f, 0.38268343f, 0.0f, -0.38268343f, -0.70710678f,
-         -0.92387953f},
-        {0.92387953f, 0.70710678f, 0.38268343f, 0.0f, -0.38268343f, -0.70710678f, -0.92387953f,
-         -1.0f},
-    };
-    const Floats sines[2] = {
-        {0.0f, 0.38268343f, 0.70710678f, 0.92387953f, 1.0f, 0.92387953f, 0.70710678f, 0.38268343f},
-        {0.38268343f, 0.70710678f, 0.92387953f, 1.0f, 0.92387953f, 0.70710678f, 0.38268343f, 0.0f},
-    };
+    // With (u, v) of a length above 1/20, cosines have an error below 2e-5, and sines, of cosines
+    // that are cut off so that a cover becomes larger or one about it smaller, below 2e-4. A part
+    // is at least 1/8 wide, so that ends are known to 0.01 of it.
+    constexpr float margin = 1e-3f, most = 0.99f, room = 0.02f;
     const float ax = float(circle.axis.x()), ay = float(circle.axis.y());
     const float az = float(circle.axis.z()), height = float(circle.cosine);
     const float r = float(circle.sine);
     const float ux = r * float(circle.e1.x()), uy = r * float(circle.e1.y());
     const float uz = r * float(circle.e1.z()), vx = r * float(circle.e2.x());
     const float vy = r * float(circle.e2.y()), vz = r * float(circle.e2.z());
-    Ints first = {}, second = {}; // the parts of both halves that are covered
-    for (int k = 0; k < caps.size(); k += floatLanes) {
+    const auto placeOf = [](Floats x, Floats y) {
+        const Floats t = x / (size(x) + size(y));
+        return 8.0f * (y >= 0.0f ? 1.0f - t : 3.0f + t);
+    };
+    std::uint32_t covered = 0;
+    for (int k = 0; k < caps.size() && ~covered != 0; k += floatLanes) {
         const Floats x = load(caps.x.data() + k), y = load(caps.y.data() + k);
         const Floats z = load(caps.z.data() + k);
-        float *base = f.base.data() + k, *u = f.u.data() + k, *v = f.v.data() + k;
-        store(base, height * (ax * x + ay * y + az * z) - load(caps.cosine.data() + k));
-        store(u, ux * x + uy * y + uz * z);
-        store(v, vx * x + vy * y + vz * z);
-        for (int l = 0; l < floatLanes; ++l) {
-            const Floats p = u[l] * cosines[0] + v[l] * sines[0];
-            const Floats q = u[l] * cosines[1] + v[l] * sines[1];
-            const Floats low = smaller(p, q), high = -larger(p, q); // of the other half
-            first |= base[l] + smaller(low, longest * low) > rounding;
-            second |= base[l] + smaller(high, longest * high) > rounding;
-            if (l % ahead == ahead - 1 && !any(~(first & second))) return true;
-        }
+        const Floats base = height * (ax * x + ay * y + az * z) - load(caps.cosine.data() + k);
+        const Floats u = ux * x + uy * y + uz * z, v = vx * x + vy * y + vz * z;
+        const Floats inverse = 1.0f / squareRoot(u * u + v * v), cosine = -base * inverse;
+        const Ints known = inverse < 20.0f;
+        const Ints none = known & (cosine > 1.0f + margin), holding = known & (cosine < most);
+        const Floats cut = clamped(cosine, splat(-most), splat(most));
+        const Floats along = u * inverse, across = v * inverse, sine = squareRoot(1.0f - cut * cut);
+        store(f.u.data() + k, along);
+        store(f.v.data() + k, across);
+        store(f.base.data() + k, cut);
+        store(f.sine.data() + k, sine);
+        // Bounds of the cosines. holds: 2 if it may hold no other; held: 3 if it covers nothing and
+        // so is dropped, -3 if it is not known and so kept.
+        store(f.holds.data() + k, holding ? cut : splat(2.0f));
+        store(f.held.data() + k, none ? splat(3.0f) : known ? cut : splat(-3.0f));
+        const Floats begin = placeOf(along * cut + across * sine, across * cut - along * sine);
+        const Floats end = placeOf(along * cut - across * sine, across * cut + along * sine);
+        const Ints first = truncated(begin + room) + 1;
+        const Ints last = truncated((end < begin ? end + 32.0f : end) - room);
+        const Ints count = holding & (last > first) & (last - first);
+        const Bits parts = ((Bits{} + 1) << Bits(count & 31)) - 1;
+        const Bits turned = (parts << Bits(first & 31)) | (parts >> Bits((32 - first) & 31));
+        Ints bits;
+        std::memcpy(&bits, &turned, sizeof bits);
+        covered |= bitsOf(bits);
     }
-    return false;
+    return covered;
 }
 
 /// Finds the covers of a circle that do not surely lie within another one, in floats: only these
 /// can be beside a gap.
-/// @param[in,out] f     from isSurelyCovered()
-/// @param[out]    kept  the places of their caps; room for all
+/// @param[in]  f     from coveredParts()
+/// @param[out] kept  the places of their caps; room for all
 /// @return their number
 MOLSURF_KERNEL int keepCovers(RoundedCovers& f, int count, std::int32_t* kept)
 {
-    // With (u, v) of a length above 1/20, cosines have an error below 2e-5, and sines, of cosines
-    // that are cut off so that a cover becomes larger or one about it smaller, below 2e-4.
-    constexpr float margin = 1e-3f, most = 0.99f;
-    for (int k = 0; k < count; k += floatLanes) {
-        const Floats u = load(f.u.data() + k), v = load(f.v.data() + k);
-        const Floats inverse = 1.0f / squareRoot(u * u + v * v);
-        const Floats cosine = -load(f.base.data() + k) * inverse;
-        const Ints known = inverse < 20.0f;
-        const Ints none = known & (cosine > 1.0f + margin);
-        const Floats cut = clamped(cosine, splat(-most), splat(most));
-        store(f.u.data() + k, u * inverse);
-        store(f.v.data() + k, v * inverse);
-        store(f.base.data() + k, cut);
-        store(f.sine.data() + k, squareRoot(1.0f - cut * cut));
-        // Bounds of the cosines. holds: 2 if it may hold no other; held: 3 if it covers nothing and
-        // so is dropped, -3 if it is not known and so kept.
-        store(f.holds.data() + k, known & (cosine < most) ? cut : splat(2.0f));
-        store(f.held.data() + k, none ? splat(3.0f) : known ? cut : splat(-3.0f));
-    }
+    constexpr float margin = 1e-3f;
     // Most caps cover nothing of a circle: only the others are compared.
     int some = 0;
-    for (int k = 0; k < count; ++k) {
-        for (auto* list : {&f.u, &f.v, &f.base, &f.sine, &f.holds, &f.held})
-            (*list)[std::size_t(some)] = (*list)[std::size_t(k)];
-        kept[some] = k;
-        some += f.held[std::size_t(some)] < 2.5f;
-    }
-    store(f.holds.data() + some, splat(2.0f));
-    int m = 0;
-    for (int k = 0; k < some; ++k) {
-        const auto i = std::size_t(k);
-        const float x = f.u[i], y = f.v[i], cosine = f.base[i], sine = f.sine[i];
-        Ints within = {};
-        for (int l = 0; l < some; l += floatLanes) {
-            const Floats holds = load(f.holds.data() + l);
-            const Floats between = x * load(f.u.data() + l) + y * load(f.v.data() + l);
-            const Floats difference = cosine * holds + sine * load(f.sine.data() + l);
-            within |= (between >= difference + margin) & (holds <= f.held[i]);
+    for (int k = 0; k < count; k += floatLanes) {
+        const Ints covers = load(f.held.data() + k) < 2.5f;
+        for (std::uint32_t bits = bitsOf(covers & laneBits()); bits != 0; bits &= bits - 1) {
+            const int from = k + __builtin_ctz(bits);
+            if (from >= count) break;
+            for (auto* list : {&f.u, &f.v, &f.base, &f.sine, &f.holds, &f.held})
+                (*list)[std::size_t(some)] = (*list)[std::size_t(from)];
+            kept[some++] = from;
         }
-        kept[m] = kept[k];
-        m += !any(within);
+    }
+    int m = 0;
+    for (int k = 0; k < some; k += floatLanes) {
+        const Floats x = load(f.u.data() + k), y = load(f.v.data() + k);
+        const Floats cosine = load(f.base.data() + k), sine = load(f.sine.data() + k);
+        const Floats held = load(f.held.data() + k);
+        Ints within = {};
+        for (int l = 0; l < some; ++l) {
+            const auto i = std::size_t(l);
+            const Floats between = f.u[i] * x + f.v[i] * y;
+            const Floats difference = f.holds[i] * cosine + f.sine[i] * sine;
+            within |= (between >= difference + margin) & (f.holds[i] <= held);
+        }
+        for (std::uint32_t bits = bitsOf(~within & laneBits()); bits != 0; bits &= bits - 1) {
+            const int at = k + __builtin_ctz(bits);
+            if (at < some) kept[m++] = kept[at];
+        }
     }
     return m;
-}
-
-/// Finds the ends of covers: (x, y) turned forward by the half angle.
-MOLSURF_KERNEL void findEnds(int count, const double* x, const double* y, const double* cosine,
-                             double* __restrict endX, double* __restrict endY)
-{
-    for (int k = 0; k < count; ++k) {
-        const double sine = std::sqrt(1.0 - cosine[k] * cosine[k]);
-        endX[k] = x[k] * cosine[k] - y[k] * sine;
-        endY[k] = y[k] * cosine[k] + x[k] * sine;
-    }
-}
-
-/// A measure of the angle from one direction forward to another, which grows with it: 0 to 4 for a
-/// full turn.
-template<typename T>
-MOLSURF_INLINE T pseudoAngle(double fromX, double fromY, T toX, T toY)
-{
-    const T along = toX * fromX + toY * fromY, ahead = fromX * toY - fromY * toX;
-    return ahead >= 0.0 ? 1.0 - along : 3.0 + along;
-}
-
-/// The end that lies farthest ahead of a direction, of the covers that hold it.
-/// @param[in]  count    a multiple of doubleLanes
-/// @param[out] farthest how far; 0 where none holds it
-/// @return the cover
-MOLSURF_KERNEL int farthestEnd(double fromX, double fromY, int count, const double* x,
-                               const double* y, const double* cosine, const double* endX,
-                               const double* endY, double& farthest)
-{
-    Doubles most = {};
-    Longs best = {};
-    for (int k = 0; k < count; k += doubleLanes) {
-        const Doubles ahead = pseudoAngle(fromX, fromY, load(endX + k), load(endY + k));
-        const Doubles inside = load(x + k) * fromX + load(y + k) * fromY - load(cosine + k);
-        const Doubles held = inside > coverMargin ? ahead : Doubles{};
-        best = held > most ? Longs{} + k : best;
-        most = held > most ? held : most;
-    }
-    int lane = 0;
-    for (int j = 1; j < doubleLanes; ++j) {
-        if (most[j] > most[lane]) lane = j;
-    }
-    farthest = most[lane];
-    return int(best[lane]) + lane;
-}
-
-/// Whether covers overlap all around a circle, by the greedy walk of interval covering: from the
-/// end of one to the farthest end of those that hold it. False may also mean that covers do no more
-/// than touch: the caller then has to intersect exactly.
-/// @param[in,out] m  its ends are filled in
-bool coversOverlapAllAround(CircleCovers& m)
-{
-    const int count = m.size();
-    int at = 0; // the cover at whose end we are
-    while (at < count && !(m.sure[std::size_t(at)] < 1.0)) ++at;
-    if (at == count) return false;
-    findEnds(count, m.x.data(), m.y.data(), m.sure.data(), m.endX.data(), m.endY.data());
-    const double startX = m.endX[std::size_t(at)], startY = m.endY[std::size_t(at)];
-    double turned = 0.0; // how far from the start, from 0 to 4
-    for (int step = 0; step <= count; ++step) {
-        double farthest;
-        at = farthestEnd(m.endX[std::size_t(at)], m.endY[std::size_t(at)], count, m.x.data(),
-                         m.y.data(), m.sure.data(), m.endX.data(), m.endY.data(), farthest);
-        if (farthest <= coverMargin) return false;
-        const double now =
-            pseudoAngle(startX, startY, m.endX[std::size_t(at)], m.endY[std::size_t(at)]);
-        if (now < turned) return true; // at the start, which the first step has covered, or past it
-        turned = now;
-    }
-    return false;
 }
 
 enum class Answer { Yes, No, Unknown };
@@ -327,8 +244,9 @@ Answer findCovers(const std::vector<PlacedBall>& balls, std::int32_t i, const Ca
 template<typename Real>
 Real pseudoAngle(const Real& x, const Real& y)
 {
-    if (y >= 0) return x >= 0 ? Real(y / (x + y)) : Real(1 + x / (x - y));
-    return x < 0 ? Real(2 + y / (x + y)) : Real(3 + x / (x - y));
+    using std::abs;
+    const Real part = x / (abs(x) + abs(y));
+    return y >= 0 ? Real(1 - part) : Real(3 + part);
 }
 
 /// The gaps between covers, by a sweep over these in the order of their begins. `last` is the one
@@ -402,7 +320,7 @@ void findGaps(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArr
     const auto [e1, e2] = perpendicular(caps[own].axis);
     circle = {caps[own].axis, e1, e2, caps.cosine[place], caps.sine[place]};
     scratch.rounded.resize(std::size_t(caps.size()));
-    if (isSurelyCovered(circle, caps.rounded, scratch.rounded)) return;
+    if (~coveredParts(circle, caps.rounded, scratch.rounded) == 0) return;
     std::vector<std::int32_t>& kept = scratch.kept;
     kept.resize(std::size_t(caps.size() + floatLanes));
     kept.resize(std::size_t(keepCovers(scratch.rounded, caps.size(), kept.data())));
@@ -410,12 +328,11 @@ void findGaps(const std::vector<PlacedBall>& balls, std::int32_t i, const CapArr
     near.take(caps, kept);
     const int count = int(kept.size());
     CircleCovers& m = scratch.circleCovers;
-    m.resize(count);
-    // The own cap is never sure: its axis is that of the circle.
-    const bool whole = intersectCircle(
-        circle, {near.x.data(), near.y.data(), near.z.data(), near.cosine.data()}, count,
-        m.x.data(), m.y.data(), m.cosine.data(), m.error.data(), m.sure.data());
-    if (whole || coversOverlapAllAround(m)) return;
+    m.resize(kept.size());
+    const bool whole =
+        intersectCircle(circle, {near.x.data(), near.y.data(), near.z.data(), near.cosine.data()},
+                        count, m.x.data(), m.y.data(), m.cosine.data(), m.error.data());
+    if (whole) return;
     double doubt;
     Answer found = findCovers(m, kept, own, scratch.covers, doubt);
     if (found == Answer::Yes && findGaps(scratch.covers, doubt, gaps)) return;

@@ -29,17 +29,15 @@ struct Gap {
                        ///< whole circle
 };
 
-/// The parts of a circle that caps cover, as arrays that are padded to whole vectors. A cap covers
-/// the directions a with x cos a + y sin a > cosine, (x, y) being a unit vector: nothing for a
-/// cosine of 1 and more, all for one of -1 and less.
+/// The parts of a circle that caps cover, as arrays. A cap covers the directions a with x cos a + y
+/// sin a > cosine, (x, y) being a unit vector: nothing for a cosine of 1 and more, all for one of
+/// -1 and less.
 struct CircleCovers {
     std::vector<double> x, y, cosine;
-    std::vector<double> error;      ///< of the cosine and the direction, at most
-    std::vector<double> sure;       ///< the cosine; 1 where it is not known well enough
-    std::vector<double> endX, endY; ///< where the cover ends
+    std::vector<double> error; ///< of the cosine and the direction, at most
 
-    int size() const { return int(x.size()); }
-    void resize(int count);
+    /// Makes room, and gives no memory back.
+    void resize(std::size_t count);
 };
 
 /// The arcs that caps cover of a circle, as floats: the points x e1 + y e2 with u x + v y + base >

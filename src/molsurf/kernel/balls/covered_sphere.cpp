@@ -17,25 +17,27 @@ using openvdb::Vec3d;
 namespace
 {
 
-/// The middles of cells of a sphere: those of 8 x 8 squares of equal angles on each face of a cube.
-/// Two rows of four make a bundle; bundles that follow each other lie on different sides.
+/// The middles of cells of a sphere: those of 4 x 4 squares of equal angles on each face of a cube,
+/// and of their 4 x 4 parts. Two rows of four make a bundle; bundles of squares that follow each
+/// other lie on different sides.
+template<std::size_t Parts>
 struct SphereCells {
-    static constexpr std::size_t edge = 8, count = 6 * edge * edge;
-    std::array<float, count> x, y, z;
+    static constexpr std::size_t edge = 4, squares = 6 * edge * edge,
+                                 count = squares * Parts * Parts;
+    std::array<float, count> x, y, z; ///< of each square all parts, one square after the other
     float cosine, sine; ///< of rho, the largest angle between the middle and a place of a cell
 
     SphereCells()
     {
-        constexpr std::size_t bundles = count / floatLanes, stride = 19; // no common divisor
+        constexpr std::size_t bundles = squares / floatLanes, stride = 7; // no common divisor
         double least = 1.0;
         for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t bundle = k / floatLanes * stride % bundles, lane = k % floatLanes;
-            const std::size_t face = bundle / edge, block = bundle % edge;
+            const std::size_t square = k / (Parts * Parts), part = k % (Parts * Parts);
+            const std::size_t bundle = square / floatLanes * stride % bundles, face = bundle / 2;
+            const std::size_t row = 2 * (bundle % 2) + square % floatLanes / 4, column = square % 4;
             const auto at = [&](double down, double right) {
-                const std::size_t row = 2 * (block / 2) + lane / 4;
-                const std::size_t column = 4 * (block % 2) + lane % 4;
-                return direction(face, (double(row) + down) / edge,
-                                 (double(column) + right) / edge);
+                return direction(face, (double(row) + (double(part / Parts) + down) / Parts) / edge,
+                                 (double(column) + (double(part % Parts) + right) / Parts) / edge);
             };
             const Vec3d middle = at(0.5, 0.5);
             x[k] = float(middle.x());
@@ -59,42 +61,64 @@ struct SphereCells {
         out.normalize();
         return out;
     }
-};
 
-/// Whether each cell lies in a cap.
-/// @param[in] reach  the least cosine of the angle from the axis of each cap to the middle of a
-///                   cell that it holds
-MOLSURF_KERNEL bool holdAllCells(const SphereCells& cells, const CapLists& caps, const float* reach)
-{
-    constexpr int ahead = 4; // caps before it is asked whether they suffice
-    const int count = caps.size();
-    for (std::size_t c = 0; c < SphereCells::count; c += floatLanes) {
-        const Floats x = load(&cells.x[c]), y = load(&cells.y[c]), z = load(&cells.z[c]);
-        Ints held = {};
-        for (int k = 0; k < count && any(~held); k += ahead) {
-            for (int l = k; l < k + ahead; ++l) { // the lists are padded
-                const auto i = std::size_t(l);
-                held |= caps.x[i] * x + caps.y[i] * y + caps.z[i] * z > reach[i];
-            }
+    /// The least cosine of the angle from the axis of each cap to the middle of a cell that it
+    /// holds.
+    void reachOf(const CapLists& caps, std::size_t number, float error,
+                 std::vector<float>& reach) const
+    {
+        constexpr float never = 2.0f;
+        reach.assign(number + floatLanes, never);
+        for (std::size_t k = 0; k < number; ++k) {
+            const float within = caps.cosine[k] * cosine + caps.sine[k] * sine + error;
+            reach[k] = caps.cosine[k] < cosine ? within : never;
         }
-        if (any(~held)) return false;
+    }
+};
+using Squares = SphereCells<1>;
+using SquareParts = SphereCells<4>;
+
+/// Which of eight cells lie in no cap.
+MOLSURF_INLINE Ints openCells(const float* cellX, const float* cellY, const float* cellZ,
+                              const CapLists& caps, const std::vector<float>& reach)
+{
+    constexpr std::size_t ahead = 4; // caps before it is asked whether they suffice
+    const Floats x = load(cellX), y = load(cellY), z = load(cellZ);
+    Ints open = splat(-1);
+    for (std::size_t k = 0; k + floatLanes < reach.size() && any(open); k += ahead)
+        for (std::size_t l = k; l < k + ahead; ++l) // the lists are padded; a NaN holds nothing
+            open &= ~(caps.x[l] * x + caps.y[l] * y + caps.z[l] * z > reach[l]);
+    return open;
+}
+
+/// Whether each square lies in a cap, or each of its parts does.
+/// @param[in] reach,reachOfPart  of SphereCells::reachOf()
+MOLSURF_KERNEL bool holdAllCells(const Squares& cells, const SquareParts& parts,
+                                 const CapLists& caps, const std::vector<float>& reach,
+                                 const std::vector<float>& reachOfPart)
+{
+    for (std::size_t c = 0; c < Squares::count; c += floatLanes) {
+        const Ints open = openCells(&cells.x[c], &cells.y[c], &cells.z[c], caps, reach);
+        for (std::uint32_t bits = bitsOf(open & laneBits()); bits != 0; bits &= bits - 1) {
+            const std::size_t first = 16 * (c + std::size_t(__builtin_ctz(bits)));
+            for (std::size_t p = first; p < first + 16; p += floatLanes)
+                if (any(openCells(&parts.x[p], &parts.y[p], &parts.z[p], caps, reachOfPart)))
+                    return false;
+        }
     }
     return true;
 }
 
 } // namespace
 
-bool isSphereSurelyCovered(const CapLists& caps)
+bool isSphereSurelyCovered(const CapLists& caps, std::size_t count, float error)
 {
-    constexpr float rounding = 3e-6f, never = 2.0f;
-    static const SphereCells cells;
-    thread_local std::vector<float> reach;
-    reach.resize(caps.x.size());
-    for (std::size_t k = 0; k < reach.size(); ++k) {
-        const float within = caps.cosine[k] * cells.cosine + caps.sine[k] * cells.sine + rounding;
-        reach[k] = caps.cosine[k] < cells.cosine ? within : never; // padding has a cosine above 1
-    }
-    return holdAllCells(cells, caps, reach.data());
+    static const Squares cells;
+    static const SquareParts parts;
+    thread_local std::vector<float> reach, reachOfPart;
+    cells.reachOf(caps, count, error, reach);
+    parts.reachOf(caps, count, error, reachOfPart);
+    return holdAllCells(cells, parts, caps, reach, reachOfPart);
 }
 
 } // namespace molsurf

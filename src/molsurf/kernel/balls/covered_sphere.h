@@ -15,7 +15,9 @@ namespace molsurf
 /// A cell lies within the angle rho of its middle. So it lies in a cap of half angle theta if its
 /// middle is no farther from the cap's axis than theta - rho.
 ///
-/// @param[in] caps  the large ones first, which makes it quick
-bool isSphereSurelyCovered(const CapLists& caps);
+/// @param[in] caps   the large ones first, which makes it quick
+/// @param[in] count  of these, from the first one; others are not used
+/// @param[in] error  of their axes; half angles are no larger than the true ones
+bool isSphereSurelyCovered(const CapLists& caps, std::size_t count, float error = 3e-6f);
 
 } // namespace molsurf

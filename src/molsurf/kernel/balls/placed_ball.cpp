@@ -44,6 +44,12 @@ bool isBefore(const Place& a, const Place& b)
     return a[axis] < b[axis];
 }
 
+/// Not by memcmp(), which a sort would call very often.
+bool differ(const Place& a, const Place& b)
+{
+    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) != 0;
+}
+
 /// SplitMix64 (Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
 std::uint64_t mixed(std::uint64_t x)
 {
@@ -82,7 +88,7 @@ std::vector<Sorted> sorted(const std::vector<Ball>& balls)
     for (std::size_t i = 0; i < balls.size(); ++i)
         out[i] = {placeOf(balls[i]), balls[i].radius, std::int32_t(i)};
     tbb::parallel_sort(out.begin(), out.end(), [](const Sorted& a, const Sorted& b) {
-        if (a.place != b.place) return isBefore(a.place, b.place);
+        if (differ(a.place, b.place)) return isBefore(a.place, b.place);
         return std::tie(a.radius, a.index) < std::tie(b.radius, b.index);
     });
     return out;

@@ -268,10 +268,9 @@ DistanceBand bandOf(BallUnion set, double voxelSize, const BandWidths& width,
 
 } // namespace
 
-BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress,
-                  Sampled sampled)
+BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress)
 {
-    return {balls, probe, ballBoundary(balls, probe, progress, sampled)};
+    return {balls, probe, ballBoundary(balls, probe, progress)};
 }
 
 DistanceBand distanceToUnion(BallUnion set, double voxelSize, const BandWidths& width,

@@ -19,11 +19,9 @@ struct BallUnion {
 };
 
 /// Makes the boundary of a union of balls.
-/// @param[in] balls    have to outlive the union
-/// @param[in] probe    [Å], >= 0
-/// @param[in] sampled  as of ballBoundary()
-BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress,
-                  Sampled sampled = Sampled::Rays);
+/// @param[in] balls  have to outlive the union
+/// @param[in] probe  [Å], >= 0
+BallUnion unionOf(const std::vector<Ball>& balls, double probe, const Progress& progress);
 
 /// Whether DistanceBand::kinks are found; else no voxel has one.
 enum class Kinks { Found, None };

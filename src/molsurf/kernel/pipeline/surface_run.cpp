@@ -188,8 +188,7 @@ DistanceBand SurfaceRun::distanceToBalls()
     const bool areas = options_.ballAreas && !options_.fillCavities;
     const bool measured = scope_.region.whole() && !scope_.isUnit && isMeasured(options_) &&
                           (areas || probe == 0.0 || options_.closedForm);
-    BallUnion set = unionOf(model_.balls, probeOf(options_), progress_,
-                            measured ? Sampled::Rays : Sampled::Nothing);
+    BallUnion set = unionOf(model_.balls, probeOf(options_), progress_);
     if (probe > 0.0) cuspLength_ = cuspLengthOf(set.boundary, probe);
     if (measured)
         exact_ =
@@ -594,9 +593,8 @@ openvdb::FloatGrid::Ptr SurfaceRun::sasGrid()
     SparseField exact; // by closest points; none: fronts moved, and their level set is the grid
     const bool evolved = hasFlow(options_.kind);
     if (!evolved) {
-        exact = distanceToUnion(unionOf(model_.balls, options_.probe, progress_, Sampled::Nothing),
-                                options_.voxel, {width, width}, progress_, scope_.region.owned,
-                                Kinks::None)
+        exact = distanceToUnion(unionOf(model_.balls, options_.probe, progress_), options_.voxel,
+                                {width, width}, progress_, scope_.region.owned, Kinks::None)
                     .phi;
     }
     if (carrier_.table.size() > 0)
