@@ -252,10 +252,9 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 
 LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progress& progress)
 {
-    std::vector<Coord> added;
-    for (std::size_t n = 0; n < table.size(); ++n) {
+    const auto lacking = [&](std::size_t n, std::vector<Coord>& added) {
         const LeafMask& active = table.active(n);
-        if (!active.any()) continue;
+        if (!active.any()) return;
         const Extent extent(active);
         for (int k = 0; k < 27; ++k) {
             if (table.neighbours(n)[k] != noLeaf) continue;
@@ -263,7 +262,8 @@ LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progre
             if (!extent.reaches(dx, dy, dz, steps)) continue;
             added.push_back(table.origin(n).offsetBy(leafDim * dx, leafDim * dy, leafDim * dz));
         }
-    }
+    };
+    std::vector<Coord> added = parallelCollect<Coord>(table.size(), progress, lacking);
     tbb::parallel_sort(added.begin(), added.end(), before);
     added.erase(std::unique(added.begin(), added.end()), added.end());
     std::vector<Coord> origins;

@@ -3,6 +3,8 @@
 
 #include <sys/mman.h>
 
+#include <tbb/parallel_for.h>
+
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -37,8 +39,16 @@ public:
     }
     void release()
     {
+        std::vector<void*> free; // nobody takes them meanwhile
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            free = pages_;
+            pages_.clear();
+        }
+        tbb::parallel_for(std::size_t(0), free.size(),
+                          [&](std::size_t i) { madvise(free[i], pageBytes, MADV_DONTNEED); });
         const std::lock_guard<std::mutex> lock(mutex_);
-        for (void* page : pages_) madvise(page, pageBytes, MADV_DONTNEED);
+        pages_.insert(pages_.end(), free.begin(), free.end()); // never grows: grow() has reserved
     }
 
 private:
