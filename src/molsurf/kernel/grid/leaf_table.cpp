@@ -124,7 +124,7 @@ LeafTable::LeafTable(std::vector<Coord> origins) : active_(origins.size())
             std::int32_t(n);
     }
 
-    l.neighbours.resize(l.origins.size());
+    l.neighbours.reset(new std::array<std::int32_t, 27>[l.origins.size()]); // set by all threads
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, l.origins.size(), 256), [&](auto range) {
         for (std::size_t n = range.begin(); n != range.end(); ++n) {
             const Coord origin = l.origins[n], leaf = (origin >> 3) & 7;

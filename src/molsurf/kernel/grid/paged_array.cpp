@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <cstdint>
@@ -39,16 +40,11 @@ public:
     }
     void release()
     {
-        std::vector<void*> free; // nobody takes them meanwhile
-        {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            free = pages_;
-            pages_.clear();
-        }
-        tbb::parallel_for(std::size_t(0), free.size(),
-                          [&](std::size_t i) { madvise(free[i], pageBytes, MADV_DONTNEED); });
         const std::lock_guard<std::mutex> lock(mutex_);
-        pages_.insert(pages_.end(), free.begin(), free.end()); // never grows: grow() has reserved
+        tbb::this_task_arena::isolate([&] { // nothing else begins here, which may ask for pages
+            tbb::parallel_for(std::size_t(0), pages_.size(),
+                              [&](std::size_t i) { madvise(pages_[i], pageBytes, MADV_DONTNEED); });
+        });
     }
 
 private:

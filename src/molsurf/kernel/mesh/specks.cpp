@@ -4,12 +4,9 @@
 #include "molsurf/kernel/core/spherical_area.h"
 #include "molsurf/kernel/grid/leaf_block.h"
 
-#include <tbb/parallel_scan.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <set>
 
@@ -202,17 +199,9 @@ std::vector<char> removePieces(const MeshPieces& pieces, const std::vector<char>
     const std::size_t vertices = mesh.positions.size();
     std::vector<char> stays(vertices);
     parallelFor(vertices, Progress(), [&](std::size_t v) { stays[v] = !gone[pieces.of[v]]; });
-    std::vector<std::uint32_t> numbers(vertices);
-    tbb::parallel_scan(
-        tbb::blocked_range<std::size_t>(0, vertices), std::uint32_t(0),
-        [&](const auto& range, std::uint32_t count, bool isLast) {
-            for (std::size_t v = range.begin(); v != range.end(); ++v) {
-                if (isLast) numbers[v] = count;
-                count += std::uint32_t(stays[v]);
-            }
-            return count;
-        },
-        std::plus<std::uint32_t>());
+    std::vector<std::uint32_t> numbers(vertices, 0);
+    for (std::size_t v = 1; v < vertices; ++v)
+        numbers[v] = numbers[v - 1] + std::uint32_t(stays[v - 1]);
     const std::vector<std::size_t> left = trianglesOf(mesh, pieces, gone);
     for (MeshPart& part : mesh.parts)
         part.firstTriangle -= std::size_t(

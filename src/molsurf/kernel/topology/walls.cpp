@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/kernel/topology/walls.h"
 
-#include "molsurf/kernel/core/disjoint_sets.h"
 #include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/levelset/closest_foot.h"
 
@@ -101,23 +100,6 @@ bool isNearest(const JetAt& jetAt, const Middle& middle)
     return true;
 }
 
-/// The sets of middles that are linked by steps shorter than `same`, in ascending order.
-std::vector<std::vector<std::size_t>> clustersOf(const std::vector<Middle>& middles, double same)
-{
-    DisjointSets sets(middles.size());
-    for (std::size_t i = 0; i < middles.size(); ++i) {
-        const Vec3d& x = middles[i].place;
-        for (std::size_t j = i; j-- > 0 && x.x() - middles[j].place.x() <= same;)
-            if ((x - middles[j].place).length() < same)
-                sets.join(std::uint32_t(i), std::uint32_t(j));
-    }
-    std::size_t count = 0;
-    const std::vector<std::uint32_t> numbers = sets.numbers(count);
-    std::vector<std::vector<std::size_t>> out(count);
-    for (std::size_t i = 0; i < numbers.size(); ++i) out[numbers[i]].push_back(i);
-    return out;
-}
-
 /// Trilinear interpolation of S at a point [voxel]; voxels without a leaf count as 0.
 double valueAt(const SparseField& S, const Vec3d& x)
 {
@@ -181,21 +163,23 @@ std::vector<Decision> decideWalls(const PsiJetAt& psi, const std::vector<ThinPla
     for (const auto& middle : found)
         if (middle) middles.push_back(*middle);
     std::sort(middles.begin(), middles.end());
-    const std::vector<std::vector<std::size_t>> clusters = clustersOf(middles, same);
-    std::vector<char> isWall(middles.size(), 0);
-    parallelFor(clusters.size(), progress, [&](std::size_t c) {
-        std::vector<Middle> walls;
-        for (const std::size_t i : clusters[c]) {
-            if (isAmong(walls, middles[i].place, same) || !isNearest(jetAt, middles[i])) continue;
-            walls.push_back(middles[i]);
-            isWall[i] = 1;
+    std::vector<std::size_t> begins; // of runs that lie farther apart than `same`
+    for (std::size_t i = 0; i < middles.size(); ++i)
+        if (i == 0 || middles[i].place.x() - middles[i - 1].place.x() > same) begins.push_back(i);
+    const std::size_t runs = begins.size();
+    begins.push_back(middles.size());
+    std::vector<std::vector<Middle>> walls(runs);
+    parallelFor(runs, progress, [&](std::size_t r) {
+        for (std::size_t i = begins[r]; i < begins[r + 1]; ++i) {
+            const Middle& middle = middles[i];
+            if (!isAmong(walls[r], middle.place, same) && isNearest(jetAt, middle))
+                walls[r].push_back(middle);
         }
     });
     std::vector<Decision> out;
-    for (std::size_t i = 0; i < middles.size(); ++i)
-        if (isWall[i])
-            out.push_back({middles[i].place * voxelSize,
-                           middles[i].depth * voxelSize - offset - thinnestWall});
+    for (const auto& some : walls)
+        for (const Middle& wall : some)
+            out.push_back({wall.place * voxelSize, wall.depth * voxelSize - offset - thinnestWall});
     return out;
 }
 
