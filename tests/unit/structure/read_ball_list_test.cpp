@@ -133,19 +133,6 @@ TEST(ReadXyzr, NamesTheLineThatIsWrong)
     EXPECT_HAS(listError("a.xyzr", "# nothing\n"), "no atoms");
 }
 
-// A text is read in blocks of 64 KB.
-TEST(ReadXyzr, KeepsTheOrderOfLinesInLargeFiles)
-{
-    constexpr std::size_t count = 30000;
-    std::string text;
-    for (std::size_t i = 0; i < count; ++i) text += std::to_string(i) + ".25 2 3 1.7\n";
-    const Structure all = readList("a.xyzr", text);
-    ASSERT_EQ(all.atoms.size(), count);
-    for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(all.atoms[i].position[0], double(i) + 0.25);
-    EXPECT_HAS(listError("a.xyzr", text + "1 2 3\n" + text + "1 2 x 3\n"),
-               "line 30001: expected x y z radius");
-}
-
 TEST(ReadXyzrn, TakesTheNameAsItStands)
 {
     const Structure s = readList("a.xyzrn", "# x y z r 1 name\n1 2 3 1.7 1 N_ALA_1\n"

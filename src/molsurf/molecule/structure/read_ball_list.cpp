@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/molecule/structure/readers.h"
 
-#include "molsurf/error.h"
-#include "molsurf/kernel/core/parallel.h"
 #include "molsurf/molecule/structure/atom_tree.h"
 #include "molsurf/molecule/structure/element.h"
 #include "molsurf/molecule/structure/pdb_columns.h"
@@ -110,31 +108,6 @@ bool parseResidueNumber(string_view field, AtomLine& id)
     if (!parseInteger(code ? field.substr(0, field.size() - 1) : field, id.number)) return false;
     id.insertionCode = code ? field.back() : ' ';
     return true;
-}
-
-/// The atoms of some lines of an .xyzr file.
-std::vector<AtomLine> atomsInXyzr(string_view text, const std::string& path)
-{
-    constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
-    std::vector<AtomLine> atoms;
-    Fields fields;
-    for (LineReader lines(text); lines.next();) {
-        splitFields(lines.line(), fields);
-        if (fields.empty() || fields[0][0] == '#') continue;
-        const Place place{path, lines};
-        if (fields.size() < names.size()) {
-            fail(place, "expected x y z radius, got " + inQuotes(lines.line()));
-        }
-        const auto [x, y, z, radius] = lastNumbers(fields, names, place);
-        AtomLine& atom = atoms.emplace_back();
-        if (fields.size() == names.size() + 3 && parseResidueNumber(fields[1], atom)) {
-            atom.chain = fields[0];
-            atom.name = fields[2];
-        }
-        atom.position = {x, y, z};
-        atom.radius = radius;
-    }
-    return atoms;
 }
 
 /// Reads what stands left of the coordinates: serial atom residue [chain] number.
@@ -269,26 +242,24 @@ Structure readPqr(const std::string& text, const std::string& path)
 
 Structure readXyzr(const std::string& text, const std::string& path)
 {
-    constexpr std::size_t block = std::size_t(1) << 16; // bytes, and to the end of a line
-    std::vector<string_view> blocks;
-    for (string_view rest = text; !rest.empty(); rest.remove_prefix(blocks.back().size())) {
-        const std::size_t end = rest.find('\n', std::min(block, rest.size()));
-        blocks.push_back(rest.substr(0, end == string_view::npos ? end : end + 1));
-    }
     AtomTree tree;
     tree.reserve(std::size_t(std::count(text.begin(), text.end(), '\n')) + 1);
-    constexpr std::size_t most = 128; // at a time: their atoms take 50 MB
-    for (std::size_t first = 0; first < blocks.size(); first += most) {
-        std::vector<std::vector<AtomLine>> parts(std::min(most, blocks.size() - first));
-        try {
-            parallelFor(parts.size(), Progress(),
-                        [&](std::size_t b) { parts[b] = atomsInXyzr(blocks[first + b], path); });
-        } catch (const Error&) {
-            atomsInXyzr(text, path); // refuses the first of its wrong lines, with its number
-            throw;
+    constexpr std::array<const char*, 4> names{"x", "y", "z", "radius"};
+    Fields fields;
+    for (LineReader lines(text); lines.next();) {
+        splitFields(lines.line(), fields);
+        if (fields.empty() || fields[0][0] == '#') continue;
+        const Place place{path, lines};
+        if (fields.size() < names.size()) {
+            fail(place, "expected x y z radius, got " + inQuotes(lines.line()));
         }
-        for (const auto& part : parts)
-            for (const AtomLine& atom : part) tree.add(atom);
+        const auto [x, y, z, radius] = lastNumbers(fields, names, place);
+        AtomLine id;
+        if (fields.size() == names.size() + 3 && parseResidueNumber(fields[1], id)) {
+            id.chain = fields[0];
+            id.name = fields[2];
+        }
+        addBall(tree, id, {x, y, z}, radius);
     }
     return finished(tree);
 }

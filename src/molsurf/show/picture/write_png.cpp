@@ -52,45 +52,31 @@ Bytes filteredRows(const Picture& picture)
     return rows;
 }
 
-/// A part of rows deflated, up to whole bytes; the 32 KB before it are known.
-Bytes deflated(const Bytes& rows, std::size_t begin, std::size_t end)
-{
-    constexpr int level = 5; // 0.6 of the time of 6, for 2 % more bytes
-    z_stream z{};
-    if (deflateInit2(&z, level, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
-        throw std::bad_alloc();
-    const std::size_t known = std::min(begin, std::size_t(1) << 15);
-    deflateSetDictionary(&z, rows.data() + begin - known, uInt(known));
-    Bytes out(deflateBound(&z, uLong(end - begin)) + 16); // and the mark of a flush
-    z.next_in = const_cast<Bytef*>(rows.data() + begin);
-    z.avail_in = uInt(end - begin);
-    z.next_out = out.data();
-    z.avail_out = uInt(out.size());
-    deflate(&z, end == rows.size() ? Z_FINISH : Z_SYNC_FLUSH);
-    out.resize(z.total_out);
-    deflateEnd(&z);
-    return out;
-}
-
-/// A zlib stream of rows, made in blocks by all threads.
+/// A zlib stream of rows, made by all threads: blocks end at whole bytes, and each knows the 32 KB
+/// before it.
 Bytes packed(const Bytes& rows)
 {
-    constexpr std::size_t block = std::size_t(1) << 17;
-    const std::size_t blocks = (rows.size() + block - 1) / block;
-    const auto endOf = [&](std::size_t b) { return std::min(rows.size(), (b + 1) * block); };
-    std::vector<Bytes> parts(blocks);
-    std::vector<uLong> sums(blocks);
-    tbb::parallel_for(std::size_t(0), blocks, [&](std::size_t b) {
-        parts[b] = deflated(rows, b * block, endOf(b));
-        sums[b] = adler32_z(1, rows.data() + b * block, endOf(b) - b * block);
+    constexpr int level = 5; // 0.6 of the time of 6, for 2 % more bytes
+    constexpr std::size_t block = std::size_t(1) << 17, window = std::size_t(1) << 15;
+    std::vector<Bytes> parts((rows.size() + block - 1) / block);
+    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t b) {
+        const std::size_t begin = b * block, end = std::min(rows.size(), begin + block);
+        z_stream z{};
+        if (deflateInit2(&z, level, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+            throw std::bad_alloc();
+        if (b > 0) deflateSetDictionary(&z, rows.data() + begin - window, window);
+        parts[b].resize(deflateBound(&z, end - begin) + 16); // and the mark of a flush
+        z.next_in = const_cast<Bytef*>(rows.data() + begin);
+        z.avail_in = uInt(end - begin);
+        z.next_out = parts[b].data();
+        z.avail_out = uInt(parts[b].size());
+        deflate(&z, end == rows.size() ? Z_FINISH : Z_SYNC_FLUSH);
+        parts[b].resize(z.total_out);
+        deflateEnd(&z);
     });
     Bytes out = {0x78, 0x5e}; // deflate with 32 KB, a low level
-    uLong sum = 1;
-    for (std::size_t b = 0; b < blocks; ++b) {
-        out.insert(out.end(), parts[b].begin(), parts[b].end());
-        sum = adler32_combine(sum, sums[b], z_off_t(endOf(b) - b * block));
-    }
-    append32(std::uint32_t(sum), out);
+    for (const Bytes& part : parts) out.insert(out.end(), part.begin(), part.end());
+    append32(std::uint32_t(adler32_z(1, rows.data(), rows.size())), out);
     return out;
 }
 
