@@ -8,7 +8,7 @@ PROGRAM runs with ARGUMENTS, -v and N threads (4 unless given; more than the mac
 2 ms its threads are looked at in /proc: those in state R can run, whether they have a core or wait for one, so that a
 busy machine changes little. Where not more than one can, the processor time that passes counts as serial. TBB's threads
 call sched_yield() while they look for work; a library that is preloaded makes them sleep there for 0.1 ms, since they
-would count as threads that can run.
+would count as threads that can run; it also names as many cores as threads, since TBB makes no more threads than cores.
 
 Prints processor seconds, serial ones by stage (medians of the runs), their share, and the speed-up that Amdahl's law
 gives for 8, 16 and 64 cores if nothing else bounds it.
@@ -25,11 +25,26 @@ import time
 
 PERIOD = 0.002  # [s]
 SLEEPS = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <sched.h>
 #include <time.h>
+#include <unistd.h>
 int sched_yield(void)
 {
     struct timespec wait = {0, 100000};
     return nanosleep(&wait, 0);
+}
+long sysconf(int name)
+{
+    if (name == _SC_NPROCESSORS_ONLN || name == _SC_NPROCESSORS_CONF) return THREADS;
+    return ((long (*)(int))dlsym(RTLD_NEXT, "sysconf"))(name);
+}
+int sched_getaffinity(pid_t process, size_t size, cpu_set_t* set)
+{
+    CPU_ZERO_S(size, set);
+    for (int i = 0; i < THREADS; ++i) CPU_SET_S(i, size, set);
+    return 0;
 }
 """
 
@@ -86,7 +101,7 @@ def main():
     asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         library = os.path.join(folder, "sleeps.so")
-        subprocess.run(["cc", "-shared", "-fPIC", "-xc", "-", "-o", library], input=SLEEPS, text=True, check=True)
+        subprocess.run(["cc", f"-DTHREADS={asked.j}", "-shared", "-fPIC", "-xc", "-", "-o", library], input=SLEEPS, text=True, check=True)
         runs = [run([asked.program, *asked.arguments, "-v", "--force", "-j", str(asked.j)], library)
                 for _ in range(asked.runs)]
     print("| stage | CPU s | serial s |\n|---|---|---|")

@@ -45,7 +45,6 @@ LIBRARIES = {
     "gemmi/": ["src/molsurf/molecule/structure/", "src/molsurf/show/io/write_structure.cpp"],
     "nlohmann/": ["src/molsurf/show/io/", "src/molsurf/show/picture/", "src/molsurf/scale/bricks/", "src/molsurf/molecule/selection/groups.cpp",
                   "src/molsurf/molecule/structure/binary_cif.cpp"],
-    "png.h": ["src/molsurf/show/picture/write_png.cpp"],
     "ft2build.h": ["src/molsurf/show/picture/font.cpp"],
     "embree": ["src/molsurf/analysis/proximity/embree.h"],
     "sodium": ["src/molsurf/molecule/structure/sha256.cpp"],

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 namespace molsurf
 {
@@ -32,6 +33,30 @@ TEST(ParallelSum, HasTheSameBitsForAnyNumberOfThreads)
         tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         EXPECT_EQ(parallelSum<double>(20000, Progress(), term), serial) << threads << " threads";
     }
+}
+
+// Of many chunks, few go or nearly all, at the begin or the end.
+TEST(ParallelKeep, IsStdRemoveIf)
+{
+    std::vector<int> all(30000);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = int(i * 7919 % 30000);
+    const std::vector<std::function<bool(std::size_t)>> rules = {
+        [](std::size_t) { return true; },
+        [](std::size_t) { return false; },
+        [](std::size_t i) { return i % 1000 != 1; },
+        [](std::size_t i) { return i > 9000; },
+        [](std::size_t i) { return i < 9000 || i % 5000 == 3; },
+        [](std::size_t i) { return std::sin(double(i)) > 0.4; }};
+    for (const auto& keep : rules) {
+        std::vector<int> expected, got = all;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (keep(i)) expected.push_back(all[i]);
+        parallelKeep(got, Progress(), keep);
+        EXPECT_EQ(got, expected) << &keep - rules.data();
+    }
+    std::vector<int> none;
+    parallelKeep(none, Progress(), rules[0]);
+    EXPECT_TRUE(none.empty());
 }
 
 TEST(ParallelFor, StopsWhenCancelled)

@@ -106,9 +106,10 @@ TEST(Specks, GoFromMeshAndLevelSet)
         ASSERT_EQ(pieces.measures.size(), 2u) << place;
         ASSERT_LT(std::abs(pieces.measures[1].volume), 0.1 * std::pow(voxel, 3));
         const std::size_t vertices = mesh.positions.size();
-        const auto kept = dropSpecks(pieces, *grid, mesh);
-        ASSERT_TRUE(kept.has_value());
-        EXPECT_EQ(kept->size(), mesh.positions.size());
+        const auto stays = dropSpecks(pieces, *grid, mesh);
+        ASSERT_TRUE(stays.has_value());
+        EXPECT_EQ(stays->size(), vertices);
+        EXPECT_EQ(std::count(stays->begin(), stays->end(), 1), long(mesh.positions.size()));
         EXPECT_LT(mesh.positions.size(), vertices);
         EXPECT_EQ(pieces.measures.size(), 1u);
         EXPECT_EQ(pieces.of.size(), mesh.positions.size());
@@ -149,7 +150,9 @@ TEST(Specks, NothingIsLeftOfASpeckAlone)
     Mesh mesh = meshOf(*grid);
     MeshPieces pieces = piecesOf(mesh);
     ASSERT_EQ(pieces.measures.size(), 1u);
-    EXPECT_TRUE(dropSpecks(pieces, *grid, mesh)->empty());
+    const auto stays = dropSpecks(pieces, *grid, mesh);
+    ASSERT_TRUE(stays.has_value());
+    EXPECT_EQ(std::count(stays->begin(), stays->end(), 1), 0);
     EXPECT_TRUE(mesh.positions.empty() && mesh.triangles.empty() && pieces.measures.empty());
 }
 
@@ -200,7 +203,8 @@ TEST(RemovePieces, LeavesPartsAndValuesOfOthers)
         Mesh left = mesh;
         std::vector<char> gone(3, 0);
         gone[pieces.of[4 * away]] = 1;
-        EXPECT_EQ(removePieces(pieces, gone, left).size(), 8u);
+        const std::vector<char> stays = removePieces(pieces, gone, left);
+        EXPECT_EQ(std::count(stays.begin(), stays.end(), 1), 8);
         ASSERT_EQ(left.positions.size(), 8u);
         ASSERT_EQ(left.triangles.size(), 8u);
         ASSERT_EQ(left.parts.size(), 3u);

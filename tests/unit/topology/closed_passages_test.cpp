@@ -174,7 +174,8 @@ GapReport closedAmong(const std::vector<Gap>& gaps, double between,
                              }};
     GapReport report;
     countClosed(
-        closedPassages(gaps, field, rule, epsilon), [](const Vec3d&) { return true; }, report);
+        closedPassages(gaps, field, rule, epsilon, Progress()), [](const Vec3d&) { return true; },
+        report);
     return report;
 }
 

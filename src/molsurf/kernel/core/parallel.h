@@ -66,4 +66,32 @@ std::vector<T> parallelCollect(std::size_t n, const Progress& progress, const F&
     return out;
 }
 
+/// Keeps the elements of an array that keep(i) names, in their order and in their place in memory.
+/// keep(i) may look at element i, and at no other of the array.
+template<typename T, typename F>
+void parallelKeep(std::vector<T>& values, const Progress& progress, const F& keep)
+{
+    constexpr std::size_t chunk = 4096;
+    const std::size_t n = values.size(), chunks = (n + chunk - 1) / chunk;
+    std::vector<std::size_t> begins(chunks + 1, 0); // of what stays
+    parallelFor(chunks, progress, [&](std::size_t c) {
+        for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i)
+            begins[c + 1] += keep(i) ? 1 : 0;
+    });
+    for (std::size_t c = 0; c < chunks; ++c) begins[c + 1] += begins[c];
+    std::vector<std::vector<T>> early(chunks); // what moves to the place of another chunk
+    parallelFor(chunks, progress, [&](std::size_t c) {
+        std::size_t at = begins[c];
+        for (std::size_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
+            if (!keep(i)) continue;
+            at < c* chunk ? early[c].push_back(values[i]) : void(values[at] = values[i]);
+            ++at;
+        }
+    });
+    parallelFor(chunks, progress, [&](std::size_t c) {
+        std::copy(early[c].begin(), early[c].end(), values.begin() + std::ptrdiff_t(begins[c]));
+    });
+    values.resize(begins.back());
+}
+
 } // namespace molsurf

@@ -245,23 +245,28 @@ Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, cons
     const LeafTable& table = psi.table;
     const float h = float(psi.voxelSize), inverse = 1.0f / h;
     const std::size_t every = sampleOfRest(table.size());
-    return parallelSum<Displacements>(table.size(), progress, [&](std::size_t n) {
-        Displacements ways;
-        const openvdb::Coord origin = table.origin(n);
+    std::vector<std::size_t> leaves;
+    for (std::size_t n = 0; n < table.size(); ++n) {
+        const openvdb::Coord& origin = table.origin(n);
         // By its place, so that a brick looks at the leaves of the whole.
         const std::size_t place =
             std::size_t(std::abs((origin.x() + origin.y() * 5 + origin.z() * 11) / leafDim));
-        if (place % every != 0 || !region.owned.isInside(origin)) return ways;
+        if (place % every == 0 && region.owned.isInside(origin)) leaves.push_back(n);
+    }
+    return parallelSum<Displacements>(leaves.size(), progress, [&](std::size_t i) {
+        const std::size_t n = leaves[i];
+        const openvdb::Coord origin = table.origin(n);
+        Displacements ways;
         LeafBlock<float, 2> v, phi;
         v.gather(table, rest.levels, n);
         phi.gather(psi, n);
-        for (std::size_t i = 0; i < std::size(v.values); ++i)
-            phi.values[i] = v.values[i] - phi.values[i];
+        for (std::size_t k = 0; k < std::size(v.values); ++k)
+            phi.values[k] = v.values[k] - phi.values[k];
         thread_local EdgeCrossings crossings;
         crossings.find(phi, table.active(n));
-        for (std::size_t i = 0; i < crossings.edges.size(); ++i) {
-            const EdgeCrossings::Edge& edge = crossings.edges[i];
-            const GaussianSum::Point& p = crossings.points[i];
+        for (std::size_t k = 0; k < crossings.edges.size(); ++k) {
+            const EdgeCrossings::Edge& edge = crossings.edges[k];
+            const GaussianSum::Point& p = crossings.points[k];
             const float* at = v.values + edge.from;
             const PsiJet ofLevel = between(derivatives<2>(at, inverse),
                                            derivatives<2>(at + edge.step, inverse), edge.t);

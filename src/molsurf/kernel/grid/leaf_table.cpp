@@ -161,7 +161,7 @@ LeafTable::LeafTable(std::vector<Coord> origins) : active_(origins.size())
         for (int k = 0; k < 27; ++k)
             tile.near[std::size_t(k)] = l.slots[l.slotOf(tile.place + offsetOf(k))];
     }
-    l.neighbours.resize(l.origins.size());
+    l.neighbours.reset(new std::array<std::int32_t, 27>[l.origins.size()]); // set by all threads
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, l.origins.size(), 256), [&](auto range) {
         for (std::size_t n = range.begin(); n != range.end(); ++n) l.findNeighbours(n);
     });
@@ -284,10 +284,9 @@ LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks,
 
 LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progress& progress)
 {
-    std::vector<Coord> added;
-    for (std::size_t n = 0; n < table.size(); ++n) {
+    const auto lacking = [&](std::size_t n, std::vector<Coord>& added) {
         const LeafMask& active = table.active(n);
-        if (!active.any()) continue;
+        if (!active.any()) return;
         const Extent extent(active);
         for (int k = 0; k < 27; ++k) {
             if (table.neighbours(n)[k] != noLeaf) continue;
@@ -296,7 +295,8 @@ LeafTable dilated(const LeafTable& table, int steps, Spread spread, const Progre
             added.push_back(table.origin(n).offsetBy(leafDim * offset.x(), leafDim * offset.y(),
                                                      leafDim * offset.z()));
         }
-    }
+    };
+    std::vector<Coord> added = parallelCollect<Coord>(table.size(), progress, lacking);
     tbb::parallel_sort(added.begin(), added.end(), before);
     added.erase(std::unique(added.begin(), added.end()), added.end());
     std::vector<Coord> origins;

@@ -129,7 +129,7 @@ private:
     /// Where leaves are, and a hash table of tiles to find them.
     struct Layout {
         std::vector<openvdb::Coord> origins;
-        std::vector<std::array<std::int32_t, 27>> neighbours;
+        std::unique_ptr<std::array<std::int32_t, 27>[]> neighbours; ///< by leaf
         std::vector<Tile> tiles;
         std::vector<std::int32_t> slots; ///< indices of tiles or -1; a power of two of them
 

@@ -3,6 +3,9 @@
 
 #include <sys/mman.h>
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
@@ -38,7 +41,10 @@ public:
     void release()
     {
         const std::lock_guard<std::mutex> lock(mutex_);
-        for (void* page : pages_) madvise(page, pageBytes, MADV_DONTNEED);
+        tbb::this_task_arena::isolate([&] { // nothing else begins here, which may ask for pages
+            tbb::parallel_for(std::size_t(0), pages_.size(),
+                              [&](std::size_t i) { madvise(pages_[i], pageBytes, MADV_DONTNEED); });
+        });
     }
 
 private:

@@ -55,8 +55,8 @@ LeafMask touching(const Coord& way)
 /// Flood fill: finds the leaves inside, among those of a domain that a level set lacks. No
 /// interface crosses them: the majority of the touching voxels of the level set's leaves decides.
 /// @param[in] inner  the voxels inside, by leaf of `table`
-std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
-                              const std::vector<LeafMask>& inner)
+std::vector<char> innerLeaves(const LeafTable& domain, const LeafTable& table,
+                              const std::vector<LeafMask>& inner, const Progress& progress)
 {
     struct Neighbour {
         Coord offset; // to there
@@ -69,10 +69,9 @@ std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
         about.push_back({Coord(way.x() * leafDim, way.y() * leafDim, way.z() * leafDim),
                          touching(Coord(-way.x(), -way.y(), -way.z()))});
     }
-    std::vector<bool> out(domain.size()), known(domain.size());
-    std::vector<std::size_t> found;
-    for (std::size_t n = 0; n < domain.size(); ++n) {
-        if (table.find(domain.origin(n)) != noLeaf) continue;
+    std::vector<char> out(domain.size()), known(domain.size());
+    parallelFor(domain.size(), progress, [&](std::size_t n) {
+        if (table.find(domain.origin(n)) != noLeaf) return;
         int sum = 0;
         for (const Neighbour& next : about) {
             const std::int32_t m = table.find(domain.origin(n) + next.offset);
@@ -80,10 +79,11 @@ std::vector<bool> innerLeaves(const LeafTable& domain, const LeafTable& table,
             sum += 2 * (inner[std::size_t(m)] & next.own).count() - next.own.count();
         }
         out[n] = sum > 0;
-        if (sum == 0) continue;
-        known[n] = true;
-        found.push_back(n);
-    }
+        known[n] = sum != 0;
+    });
+    std::vector<std::size_t> found;
+    for (std::size_t n = 0; n < domain.size(); ++n)
+        if (known[n]) found.push_back(n);
     for (std::size_t i = 0; i < found.size(); ++i) { // those farther away, step by step
         for (const std::int32_t m : domain.neighbours(std::int32_t(found[i]))) {
             if (m == noLeaf || known[std::size_t(m)] ||
@@ -137,14 +137,14 @@ NearestSeeds nearestSeeds(SparseField phi, const BandWidths& width, double level
                       near.index.leaf(n));
     });
 
-    const std::vector<bool> innerLeaf = innerLeaves(domain, table, inner);
+    const std::vector<char> innerLeaf = innerLeaves(domain, table, inner, progress);
     near.inside.resize(domain.size());
-    for (std::size_t n = 0; n < domain.size(); ++n) {
+    parallelFor(domain.size(), progress, [&](std::size_t n) {
         const std::int32_t m = table.find(domain.origin(n));
         near.inside[n] = m != noLeaf    ? inner[std::size_t(m)]
                          : innerLeaf[n] ? ~LeafMask()
                                         : LeafMask();
-    }
+    });
     return near;
 }
 

@@ -98,16 +98,16 @@ LeafTable ridgesOf(const DistanceBand& S, const Progress& progress)
         ridges.active(n) |= close & sharp;
     });
     ridges = dilated(pruned(ridges), aboutOf(h), Spread::Ball, progress);
-    for (std::size_t n = 0; n < ridges.size(); ++n) {
+    parallelFor(ridges.size(), progress, [&](std::size_t n) {
         const std::int32_t m = S.phi.table.find(ridges.origin(n));
         LeafMask& mask = ridges.active(n);
         if (m == noLeaf) {
             mask = LeafMask();
-            continue;
+            return;
         }
         const float* values = S.phi.leaf(std::size_t(m));
         mask &= S.phi.table.active(m) & lessThan(values, outward) & ~lessThan(values, -inward);
-    }
+    });
     return pruned(ridges);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/kernel/mesh/specks.h"
 
-#include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/core/spherical_area.h"
 #include "molsurf/kernel/grid/leaf_block.h"
 
@@ -172,6 +171,18 @@ bool leadsDeep(const SparseField& S, const Coord& start, float deep)
     return false;
 }
 
+/// The triangles of some pieces, in ascending order.
+/// @param[in] chosen  whether a piece is one of them
+std::vector<std::size_t> trianglesOf(const Mesh& mesh, const MeshPieces& pieces,
+                                     const std::vector<char>& chosen)
+{
+    return parallelCollect<std::size_t>(mesh.triangles.size(), Progress(),
+                                        [&](std::size_t t, std::vector<std::size_t>& some) {
+                                            if (chosen[pieces.of[mesh.triangles[t][0]]])
+                                                some.push_back(t);
+                                        });
+}
+
 } // namespace
 
 bool isClearOfSpecks(const SparseField& S, const Progress& progress)
@@ -190,33 +201,33 @@ bool isClearOfSpecks(const SparseField& S, const Progress& progress)
     return clear && inside >= plenty;
 }
 
-std::vector<std::uint32_t> removePieces(const MeshPieces& pieces, const std::vector<char>& gone,
-                                        Mesh& mesh)
+std::vector<char> removePieces(const MeshPieces& pieces, const std::vector<char>& gone, Mesh& mesh)
 {
-    std::vector<std::uint32_t> kept, numbers(mesh.positions.size());
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
-        numbers[v] = std::uint32_t(kept.size());
-        if (!gone[pieces.of[v]]) kept.push_back(v);
-    }
-    std::size_t count = 0, next = 0; // triangles that stay, part
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (; next < mesh.parts.size() && mesh.parts[next].firstTriangle == t; ++next)
-            mesh.parts[next].firstTriangle = count;
-        const auto [a, b, c] = mesh.triangles[t];
-        if (!gone[pieces.of[a]]) mesh.triangles[count++] = {numbers[a], numbers[b], numbers[c]};
-    }
-    for (; next < mesh.parts.size(); ++next) mesh.parts[next].firstTriangle = count;
-    mesh.triangles.resize(count);
-    keepVertices(kept, mesh.positions);
-    keepVertices(kept, mesh.normals);
-    keepVertices(kept, mesh.colors);
-    for (auto& a : mesh.scalars) keepVertices(kept, a.values);
-    for (auto& a : mesh.labels) keepVertices(kept, a.values);
-    return kept;
+    const std::size_t vertices = mesh.positions.size();
+    std::vector<char> stays(vertices);
+    parallelFor(vertices, Progress(), [&](std::size_t v) { stays[v] = !gone[pieces.of[v]]; });
+    std::vector<std::uint32_t> numbers(vertices, 0);
+    for (std::size_t v = 1; v < vertices; ++v)
+        numbers[v] = numbers[v - 1] + std::uint32_t(stays[v - 1]);
+    const std::vector<std::size_t> left = trianglesOf(mesh, pieces, gone);
+    for (MeshPart& part : mesh.parts)
+        part.firstTriangle -= std::size_t(
+            std::lower_bound(left.begin(), left.end(), part.firstTriangle) - left.begin());
+    parallelKeep(mesh.triangles, Progress(),
+                 [&](std::size_t t) { return stays[mesh.triangles[t][0]]; });
+    parallelFor(mesh.triangles.size(), Progress(), [&](std::size_t t) {
+        for (std::uint32_t& corner : mesh.triangles[t]) corner = numbers[corner];
+    });
+    keepVertices(stays, mesh.positions);
+    keepVertices(stays, mesh.normals);
+    keepVertices(stays, mesh.colors);
+    for (auto& a : mesh.scalars) keepVertices(stays, a.values);
+    for (auto& a : mesh.labels) keepVertices(stays, a.values);
+    return stays;
 }
 
-std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
-                                                     openvdb::FloatGrid& surface, Mesh& mesh)
+std::optional<std::vector<char>> dropSpecks(MeshPieces& pieces, openvdb::FloatGrid& surface,
+                                            Mesh& mesh)
 {
     constexpr double rounding = 1e-3; // of the integral of the normal over a closed piece
     const double least = leastPiece * std::pow(surface.voxelSize()[0], 3);
@@ -226,9 +237,10 @@ std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
     if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
 
     // A piece that is cut open has no volume.
+    const std::vector<std::size_t> triangles = trianglesOf(mesh, pieces, small);
     std::vector<Vec3d> normals(count, Vec3d(0.0));
-    for (const auto& t : mesh.triangles) {
-        if (!small[pieces.of[t[0]]]) continue;
+    for (const std::size_t n : triangles) {
+        const auto& t = mesh.triangles[n];
         const Vec3d a(mesh.positions[t[0]]);
         normals[pieces.of[t[0]]] +=
             0.5 * (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a);
@@ -238,11 +250,15 @@ std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
     if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
 
     std::vector<Piece> specks(count);
-    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
-        if (small[pieces.of[v]]) specks[pieces.of[v]].vertices.push_back(v);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const std::uint32_t p = pieces.of[mesh.triangles[t][0]];
-        if (small[p]) specks[p].triangles.push_back(t);
+    for (const std::size_t t : triangles) {
+        Piece& speck = specks[pieces.of[mesh.triangles[t][0]]];
+        speck.triangles.push_back(t);
+        for (const std::uint32_t corner : mesh.triangles[t]) speck.vertices.push_back(corner);
+    }
+    for (Piece& speck : specks) {
+        std::sort(speck.vertices.begin(), speck.vertices.end());
+        speck.vertices.erase(std::unique(speck.vertices.begin(), speck.vertices.end()),
+                             speck.vertices.end());
     }
     for (std::size_t p = 0; p < count; ++p)
         if (small[p]) fill(mesh, specks[p], surface);
@@ -254,17 +270,18 @@ std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
         }
     }
 
-    std::vector<std::uint32_t> kept = removePieces(pieces, small, mesh);
+    std::vector<char> stays = removePieces(pieces, small, mesh);
     std::vector<std::uint32_t> places(count);
     std::vector<PieceMeasure> measures;
     for (std::size_t p = 0; p < count; ++p) {
         places[p] = std::uint32_t(measures.size());
         if (!small[p]) measures.push_back(pieces.measures[p]);
     }
-    keepVertices(kept, pieces.of);
-    for (std::uint32_t& p : pieces.of) p = places[p];
+    keepVertices(stays, pieces.of);
+    parallelFor(pieces.of.size(), Progress(),
+                [&](std::size_t v) { pieces.of[v] = places[pieces.of[v]]; });
     pieces.measures = std::move(measures);
-    return kept;
+    return stays;
 }
 
 } // namespace molsurf

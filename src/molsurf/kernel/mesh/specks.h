@@ -4,6 +4,7 @@
 /// @file
 /// Removes pieces of a mesh that the voxels cannot hold.
 
+#include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/grid/sparse_field.h"
 #include "molsurf/kernel/mesh/measure.h"
 #include "molsurf/mesh.h"
@@ -11,7 +12,6 @@
 
 #include <openvdb/openvdb.h>
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -26,9 +26,9 @@ constexpr double leastPiece = 0.1;
 /// level set that it was made of, where the voxels that they enclose change their signs.
 /// @param[in,out] pieces   those of the mesh
 /// @param[in,out] surface  the level set
-/// @return the vertices that stay, as indices of before, ascending; nothing if all do
-std::optional<std::vector<std::uint32_t>> dropSpecks(MeshPieces& pieces,
-                                                     openvdb::FloatGrid& surface, Mesh& mesh);
+/// @return whether a vertex of before stays; nothing if all do
+std::optional<std::vector<char>> dropSpecks(MeshPieces& pieces, openvdb::FloatGrid& surface,
+                                            Mesh& mesh);
 
 /// Tells, without a mesh, that dropSpecks() would find nothing to remove, and that the mesh has
 /// more than a few triangles. Every connected set of voxels of one sign then has a voxel that lies
@@ -40,18 +40,14 @@ bool isClearOfSpecks(const SparseField& S, const Progress& progress);
 /// Removes closed pieces from a mesh, with what its attributes, colours and parts say of them.
 /// @param[in]     pieces  those of the mesh
 /// @param[in]     gone    whether a piece goes
-/// @return the vertices that stay, as indices of before, ascending
-std::vector<std::uint32_t> removePieces(const MeshPieces& pieces, const std::vector<char>& gone,
-                                        Mesh& mesh);
+/// @return whether a vertex of before stays
+std::vector<char> removePieces(const MeshPieces& pieces, const std::vector<char>& gone, Mesh& mesh);
 
-/// Makes an array over vertices one of those that stay.
+/// Makes an array over vertices, which may be empty, one of those that stay.
 template<typename T>
-void keepVertices(const std::vector<std::uint32_t>& kept, std::vector<T>& values)
+void keepVertices(const std::vector<char>& stays, std::vector<T>& values)
 {
-    std::size_t count = 0;
-    for (const std::uint32_t v : kept)
-        if (v < values.size()) values[count++] = values[v];
-    values.resize(count);
+    parallelKeep(values, Progress(), [&](std::size_t v) { return stays[v]; });
 }
 
 } // namespace molsurf

@@ -34,24 +34,12 @@ void forEach(std::size_t count, const Progress& progress, const F& f)
 std::vector<std::uint32_t> trianglesAt(const Mesh& mesh, const VertexSet& some,
                                        const Progress& progress)
 {
-    const std::size_t count = mesh.triangles.size();
-    std::vector<std::vector<std::uint32_t>> found((count + perBlock - 1) / perBlock);
-    parallelFor(found.size(), progress, [&](std::size_t b) {
-        const std::size_t end = std::min(count, (b + 1) * perBlock);
-        for (std::size_t first = b * perBlock; first < end; first += 64) {
-            std::uint64_t met = 0; // few are
-            for (std::size_t i = first; i < std::min(end, first + 64); ++i) {
-                const auto& t = mesh.triangles[i];
-                met |= std::uint64_t(some.has(t[0]) | some.has(t[1]) | some.has(t[2]))
-                       << (i - first);
-            }
-            for (; met != 0; met &= met - 1)
-                found[b].push_back(std::uint32_t(first) + std::uint32_t(__builtin_ctzll(met)));
-        }
-    });
-    std::vector<std::uint32_t> out;
-    for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
-    return out;
+    return parallelCollect<std::uint32_t>(mesh.triangles.size(), progress,
+                                          [&](std::size_t i, std::vector<std::uint32_t>& found) {
+                                              const auto& t = mesh.triangles[i];
+                                              if (some.has(t[0]) | some.has(t[1]) | some.has(t[2]))
+                                                  found.push_back(std::uint32_t(i));
+                                          });
 }
 
 /// Counting sort of triangles by the places of their corners, by all threads at once.

@@ -2,6 +2,7 @@
 #include "molsurf/kernel/topology/closed_passages.h"
 
 #include "molsurf/kernel/core/disjoint_sets.h"
+#include "molsurf/kernel/core/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,11 +39,12 @@ bool inOnePore(const Vec3d& a, const Vec3d& b, double level, const PassageField&
 
 /// Union-find of points in one pore: of each point the first of its pore.
 /// @param[in] points  ascending by x
-std::vector<std::size_t> poresOf(const std::vector<Closed>& points, const PassageField& field)
+std::vector<std::size_t> poresOf(const std::vector<Closed>& points, const PassageField& field,
+                                 const Progress& progress)
 {
     constexpr double farthest = 8.0; // points that are tried as neighbours in a pore [Å]
     DisjointSets pores(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    parallelFor(points.size(), progress, [&](std::size_t i) {
         const Vec3d& x = points[i].gap.place;
         for (std::size_t j = i; j-- > 0;) {
             const Vec3d& y = points[j].gap.place;
@@ -52,7 +54,7 @@ std::vector<std::size_t> poresOf(const std::vector<Closed>& points, const Passag
             if (pores.find(a) == pores.find(b) || (x - y).length() > farthest) continue;
             if (inOnePore(x, y, level, field)) pores.join(a, b);
         }
-    }
+    });
     std::vector<std::size_t> pore(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) pore[i] = pores.find(std::uint32_t(i));
     return pore;
@@ -80,20 +82,21 @@ double timesToOpen(const Vec3d& place, const PassageField& field, const GapRule&
 } // namespace
 
 std::vector<ClosedPassage> closedPassages(const std::vector<Gap>& gaps, const PassageField& field,
-                                          const GapRule& rule, double epsilon)
+                                          const GapRule& rule, double epsilon,
+                                          const Progress& progress)
 {
-    std::vector<Closed> points;
-    for (const Gap& gap : gaps) {
-        const double level = gap.closedAbove(rule.gradient, rule.area);
-        const double room = gap.psi > level ? field.room(gap.place) : 0.0;
-        if (room > 0.0) points.push_back({gap, room, level});
-    }
-    const std::vector<std::size_t> pores = poresOf(points, field);
-    std::vector<ClosedPassage> out;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto points =
+        parallelCollect<Closed>(gaps.size(), progress, [&](std::size_t i, auto& some) {
+            const double level = gaps[i].closedAbove(rule.gradient, rule.area);
+            const double room = gaps[i].psi > level ? field.room(gaps[i].place) : 0.0;
+            if (room > 0.0) some.push_back({gaps[i], room, level});
+        });
+    const std::vector<std::size_t> pores = poresOf(points, field, progress);
+    std::vector<ClosedPassage> out(points.size());
+    parallelFor(points.size(), progress, [&](std::size_t i) {
         const double times = timesToOpen(points[i].gap.place, field, rule);
-        out.push_back({points[i].gap.place, points[i].room, epsilon / times, pores[i]});
-    }
+        out[i] = {points[i].gap.place, points[i].room, epsilon / times, pores[i]};
+    });
     return out;
 }
 

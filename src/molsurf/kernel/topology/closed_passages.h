@@ -6,6 +6,7 @@
 /// passage, so that it may be positive where no ball covers it. docs/math.md, section 2.
 
 #include "molsurf/kernel/topology/gaps.h"
+#include "molsurf/progress.h"
 
 #include <cstddef>
 #include <functional>
@@ -34,7 +35,8 @@ struct ClosedPassage {
 /// Finds the places that the field closes.
 /// @param[in] gaps  distinct
 std::vector<ClosedPassage> closedPassages(const std::vector<Gap>& gaps, const PassageField& field,
-                                          const GapRule& rule, double epsilon);
+                                          const GapRule& rule, double epsilon,
+                                          const Progress& progress);
 
 /// Counts the pores in which a surface is closed. It may lie inside of the interface, and then is
 /// open where what closes that is thin.

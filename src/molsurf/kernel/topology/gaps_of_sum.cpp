@@ -36,7 +36,7 @@ Bumps bumpsOfGaps(const GaussianSum& sum, const SparseField& psi, const GapRule&
         const PassageField field{
             jet, [&](const Vec3d& x) { return sum.roomAt(x); },
             [&](const Vec3d& x, double times) { return sum.sharpenedJet(x, times); }};
-        decided->passages = closedPassages(all, field, rule, sum.epsilon());
+        decided->passages = closedPassages(all, field, rule, sum.epsilon(), progress);
     }
     return bumps;
 }

@@ -159,16 +159,27 @@ std::vector<Decision> decideWalls(const PsiJetAt& psi, const std::vector<ThinPla
     std::vector<std::optional<Middle>> found(places.size());
     parallelFor(places.size(), progress,
                 [&](std::size_t i) { found[i] = middleFrom(jetAt, places[i], least, most); });
-    std::vector<Middle> middles, walls;
+    std::vector<Middle> middles;
     for (const auto& middle : found)
         if (middle) middles.push_back(*middle);
     std::sort(middles.begin(), middles.end());
-    for (const Middle& middle : middles)
-        if (!isAmong(walls, middle.place, same) && isNearest(jetAt, middle))
-            walls.push_back(middle);
+    std::vector<std::size_t> begins; // of runs that lie farther apart than `same`
+    for (std::size_t i = 0; i < middles.size(); ++i)
+        if (i == 0 || middles[i].place.x() - middles[i - 1].place.x() > same) begins.push_back(i);
+    const std::size_t runs = begins.size();
+    begins.push_back(middles.size());
+    std::vector<std::vector<Middle>> walls(runs);
+    parallelFor(runs, progress, [&](std::size_t r) {
+        for (std::size_t i = begins[r]; i < begins[r + 1]; ++i) {
+            const Middle& middle = middles[i];
+            if (!isAmong(walls[r], middle.place, same) && isNearest(jetAt, middle))
+                walls[r].push_back(middle);
+        }
+    });
     std::vector<Decision> out;
-    for (const Middle& wall : walls)
-        out.push_back({wall.place * voxelSize, wall.depth * voxelSize - offset - thinnestWall});
+    for (const auto& some : walls)
+        for (const Middle& wall : some)
+            out.push_back({wall.place * voxelSize, wall.depth * voxelSize - offset - thinnestWall});
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include "molsurf/kernel/core/transient_error.h"
 #include "molsurf/show/io/temporary_file.h"
 
+#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -247,7 +248,7 @@ void commit(const std::vector<OutputFile*>& all)
         throw;
     }
     for (const fs::path& folder : folders) syncFolder(folder.string());
-    for (OutputFile* file : files) file->dropOld();
+    tbb::parallel_for(std::size_t(0), files.size(), [&](std::size_t i) { files[i]->dropOld(); });
 }
 
 void recover(const std::string& folder)

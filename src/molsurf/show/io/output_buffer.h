@@ -6,28 +6,61 @@
 
 #include "molsurf/show/io/output_file.h"
 
+#include <tbb/task_group.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <functional>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace molsurf
 {
 
-/// Collects small pieces and hands them on in large ones. Without flush() the last are lost.
+/// Collects small pieces and hands them on in large ones, each while the next one is collected.
+/// Without flush() the last are lost.
 class Buffer
 {
 public:
-    explicit Buffer(OutputFile& file) : file_(file), bytes_(capacity) {}
+    /// Takes a large piece: on any thread, one after another.
+    using Sink = std::function<void(const char*, std::size_t)>;
+
+    explicit Buffer(OutputFile& file)
+        : Buffer(Sink([&file](const char* bytes, std::size_t size) { file.write(bytes, size); }))
+    {
+    }
+    explicit Buffer(Sink sink) : sink_(std::move(sink)), bytes_(capacity) {}
+    ~Buffer() noexcept
+    {
+        try {
+            handed_.wait();
+        } catch (...) { // only where an error is on its way already: flush() throws
+        }
+    }
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
 
     // A place for `size` bytes, which is at most a few hundred.
     char* take(std::size_t size)
     {
-        if (used_ + size > capacity) flush();
+        if (used_ + size > capacity) handOn();
         char* place = bytes_.data() + used_;
         used_ += size;
         return place;
+    }
+
+    void append(const char* bytes, std::size_t size)
+    {
+        while (size > 0) {
+            if (used_ == capacity) handOn();
+            const std::size_t now = std::min(size, capacity - used_);
+            std::copy_n(bytes, now, take(now));
+            bytes += now;
+            size -= now;
+        }
     }
 
     // Gives back what the last take() asked too much.
@@ -35,15 +68,26 @@ public:
 
     void flush()
     {
-        file_.write(bytes_.data(), used_);
+        handed_.wait();
+        sink_(bytes_.data(), used_);
         used_ = 0;
     }
 
 private:
+    void handOn()
+    {
+        handed_.wait();
+        bytes_.swap(before_);
+        bytes_.resize(capacity);
+        handed_.run([this, size = used_] { sink_(before_.data(), size); });
+        used_ = 0;
+    }
+
     static constexpr std::size_t capacity = std::size_t(1) << 20;
-    OutputFile& file_;
-    std::vector<char> bytes_;
+    Sink sink_;
+    std::vector<char> bytes_, before_; // what is collected, and what is handed on
     std::size_t used_ = 0;
+    tbb::task_group handed_;
 };
 
 /// Text into a file. Without finish() the last of it is lost.
@@ -54,10 +98,7 @@ public:
 
     TextOutput& operator<<(std::string_view text)
     {
-        for (std::size_t at = 0; at < text.size(); at += piece) {
-            const std::string_view now = text.substr(at, piece);
-            now.copy(buffer_.take(now.size()), now.size());
-        }
+        buffer_.append(text.data(), text.size());
         return *this;
     }
 
@@ -90,7 +131,7 @@ private:
         return *this;
     }
 
-    static constexpr std::size_t piece = 256, longest = 32;
+    static constexpr std::size_t longest = 32;
     OutputFile& file_;
     Buffer buffer_;
 };

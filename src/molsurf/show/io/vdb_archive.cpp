@@ -3,6 +3,7 @@
 
 #include "molsurf/error.h"
 #include "molsurf/kernel/core/content_digest.h"
+#include "molsurf/show/io/output_buffer.h"
 
 #include <openvdb/Exceptions.h>
 
@@ -29,12 +30,14 @@ class ArchiveBuffer : public std::streambuf
 {
 public:
     /// @param[in] to  null: nowhere
-    ArchiveBuffer(std::streambuf* to, std::string_view identifier)
-        : to_(to), identifier_(identifier)
-    {
-    }
+    ArchiveBuffer(OutputFile* to, std::string_view identifier) : to_(to), identifier_(identifier) {}
 
-    const ContentDigest& digest() const { return digest_; }
+    /// Of all bytes, the last of which are handed on.
+    const ContentDigest& finish()
+    {
+        buffer_.flush();
+        return digest_;
+    }
 
 protected:
     std::streamsize xsputn(const char* bytes, std::streamsize size) override
@@ -44,8 +47,8 @@ protected:
             head = withIdentifier(bytes, std::size_t(size));
             bytes = head.data();
         }
-        digest_.add(bytes, std::size_t(size));
-        return to_ ? to_->sputn(bytes, size) : size;
+        buffer_.append(bytes, std::size_t(size));
+        return size;
     }
 
     int_type overflow(int_type c) override
@@ -57,12 +60,14 @@ protected:
     pos_type seekoff(off_type by, std::ios_base::seekdir from,
                      std::ios_base::openmode which) override
     {
-        return to_ ? to_->pubseekoff(by, from, which) : pos_type(off_type(-1));
+        buffer_.flush();
+        return to_ ? to_->stream().rdbuf()->pubseekoff(by, from, which) : pos_type(off_type(-1));
     }
 
     pos_type seekpos(pos_type to, std::ios_base::openmode which) override
     {
-        return to_ ? to_->pubseekpos(to, which) : pos_type(off_type(-1));
+        buffer_.flush();
+        return to_ ? to_->stream().rdbuf()->pubseekpos(to, which) : pos_type(off_type(-1));
     }
 
 private:
@@ -76,21 +81,25 @@ private:
         return out;
     }
 
-    std::streambuf* to_;
+    OutputFile* to_;
     std::string identifier_;
     std::size_t header_ = 0; // bytes until the end of the identifier, which come in their order
     ContentDigest digest_;
+    Buffer buffer_{[this](const char* bytes, std::size_t size) {
+        digest_.add(bytes, size);
+        if (to_) to_->write(bytes, size);
+    }};
 };
 
 /// @return the identifier of the archive
-std::string pass(const std::function<void(std::ostream&)>& write, std::streambuf* to,
+std::string pass(const std::function<void(std::ostream&)>& write, OutputFile* to,
                  std::string_view identifier)
 {
     ArchiveBuffer buffer(to, identifier);
     std::ostream out(&buffer);
     out.exceptions(std::ios_base::badbit | std::ios_base::failbit);
     write(out);
-    return buffer.digest().uuid();
+    return buffer.finish().uuid();
 }
 
 } // namespace
@@ -101,11 +110,11 @@ void writeArchive(const std::function<void(std::ostream&)>& write, OutputFile& f
         errno = 0;
         std::ostream& out = file.stream();
         if (file.seekable()) {
-            const std::string identifier = pass(write, out.rdbuf(), noIdentifier);
+            const std::string identifier = pass(write, &file, noIdentifier);
             out.seekp(std::streamoff(identifierPlace));
             out.write(identifier.data(), std::streamsize(identifier.size()));
         } else {
-            pass(write, out.rdbuf(), pass(write, nullptr, noIdentifier));
+            pass(write, &file, pass(write, nullptr, noIdentifier));
         }
     } catch (const std::ios_base::failure&) {
         file.fail("cannot write");

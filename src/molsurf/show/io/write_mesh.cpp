@@ -25,13 +25,6 @@ namespace
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "STL is written as it lies");
 
-template<typename T>
-char* put(char* to, const T& value)
-{
-    std::memcpy(to, &value, sizeof(T));
-    return to + sizeof(T);
-}
-
 void putVectors(TextOutput& out, const char* key, const std::vector<openvdb::Vec3f>& vectors,
                 double scale = 1.0)
 {
@@ -224,12 +217,9 @@ void writeStl(const Mesh& mesh, OutputFile& file, const LengthUnit& unit)
         openvdb::Vec3d normal = openvdb::Vec3d(b - a).cross(openvdb::Vec3d(c - a));
         const double length = normal.length();
         normal = length > 0.0 ? normal / length : openvdb::Vec3d(0.0);
-        char* to = buffer.take(50);
-        to = put(to, openvdb::Vec3f(normal));
-        to = put(to, a);
-        to = put(to, b);
-        to = put(to, c);
-        put(to, std::uint16_t(0));
+        const openvdb::Vec3f record[] = {openvdb::Vec3f(normal), a, b, c};
+        buffer.append(reinterpret_cast<const char*>(record), sizeof record);
+        buffer.append("\0", 2);
     }
     buffer.flush();
     file.finish();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "molsurf/show/picture/write_png.h"
 
-#include "molsurf/error.h"
+#include "molsurf/kernel/core/parallel.h"
 
-#include <png.h>
+#include <zlib.h>
 
 #include <cmath>
-#include <csetjmp>
+#include <new>
 
 namespace molsurf
 {
@@ -14,59 +14,92 @@ namespace molsurf
 namespace
 {
 
-void appendBytes(png_structp png, png_bytep bytes, png_size_t size)
+using Bytes = std::vector<std::uint8_t>;
+
+void append32(std::uint32_t value, Bytes& out)
 {
-    auto& all = *static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
-    all.insert(all.end(), bytes, bytes + size);
+    for (int shift = 24; shift >= 0; shift -= 8) out.push_back(std::uint8_t(value >> shift));
 }
 
-void flushNothing(png_structp) {}
-
-void stayQuiet(png_structp, png_const_charp) {}
-
-// Apart from writePng() because of the jump: nothing here has a destructor.
-bool encodePng(const Picture& picture, const std::vector<std::uint8_t>& pixels, png_structp png,
-               png_infop info, std::vector<std::uint8_t>& bytes)
+/// Writes a chunk of a file: length, kind, content and checksum.
+void writeChunk(const char* kind, const Bytes& content, OutputFile& file)
 {
-    if (setjmp(png_jmpbuf(png))) return false;
-    png_set_write_fn(png, &bytes, appendBytes, flushNothing);
-    png_set_compression_level(png, 5); // 0.6 of the time of 6, for 2 % more bytes
-    png_set_IHDR(png, info, png_uint_32(picture.width), png_uint_32(picture.height), 8,
-                 picture.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    constexpr double inch = 0.0254; // [m]
-    if (picture.dpi > 0.0) {
-        const auto perMetre = png_uint_32(std::lround(picture.dpi / inch));
-        png_set_pHYs(png, info, perMetre, perMetre, PNG_RESOLUTION_METER);
-    }
-    png_write_info(png, info);
-    for (int row = 0; row < picture.height; ++row)
-        png_write_row(png, pixels.data() +
-                               std::size_t(row) * (pixels.size() / std::size_t(picture.height)));
-    png_write_end(png, info);
-    return true;
+    Bytes out;
+    append32(std::uint32_t(content.size()), out);
+    out.insert(out.end(), kind, kind + 4);
+    out.insert(out.end(), content.begin(), content.end());
+    append32(std::uint32_t(crc32_z(0, out.data() + 4, out.size() - 4)), out);
+    file.write(out.data(), out.size());
+}
+
+/// The rows behind the filter Up, which is 2 and then each byte less the one above. measured: 4AT1
+/// by chain, 1200 pixels: 572 KB; by the filters that libpng chooses 597, by its Paeth 598.
+Bytes filteredRows(const Picture& picture)
+{
+    const auto width = std::size_t(picture.width), height = std::size_t(picture.height);
+    const std::size_t channels = picture.alpha.empty() ? 3 : 4;
+    Bytes rows((1 + channels * width) * height);
+    parallelFor(height, Progress(), [&](std::size_t y) {
+        std::uint8_t* to = rows.data() + (1 + channels * width) * y;
+        *to++ = 2;
+        for (std::size_t i = y * width; i < (y + 1) * width; ++i)
+            for (std::size_t c = 0; c < channels; ++c) {
+                const std::uint8_t* from = c < 3 ? &picture.rgb[3 * i + c] : &picture.alpha[i];
+                const std::uint8_t above = y > 0 ? *(from - (c < 3 ? 3 : 1) * width) : 0;
+                *to++ = std::uint8_t(*from - above);
+            }
+    });
+    return rows;
+}
+
+/// A zlib stream of rows, made by all threads: blocks end at whole bytes, and each knows the 32 KB
+/// before it.
+Bytes packed(const Bytes& rows)
+{
+    constexpr int level = 5; // 0.6 of the time of 6, for 2 % more bytes
+    constexpr std::size_t block = std::size_t(1) << 17, window = std::size_t(1) << 15;
+    std::vector<Bytes> parts((rows.size() + block - 1) / block);
+    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t b) {
+        const std::size_t begin = b * block, end = std::min(rows.size(), begin + block);
+        z_stream z{};
+        if (deflateInit2(&z, level, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+            throw std::bad_alloc();
+        if (b > 0) deflateSetDictionary(&z, rows.data() + begin - window, window);
+        parts[b].resize(deflateBound(&z, end - begin) + 16); // and the mark of a flush
+        z.next_in = const_cast<Bytef*>(rows.data() + begin);
+        z.avail_in = uInt(end - begin);
+        z.next_out = parts[b].data();
+        z.avail_out = uInt(parts[b].size());
+        deflate(&z, end == rows.size() ? Z_FINISH : Z_SYNC_FLUSH);
+        parts[b].resize(z.total_out);
+        deflateEnd(&z);
+    });
+    Bytes out = {0x78, 0x5e}; // deflate with 32 KB, a low level
+    for (const Bytes& part : parts) out.insert(out.end(), part.begin(), part.end());
+    append32(std::uint32_t(adler32_z(1, rows.data(), rows.size())), out);
+    return out;
 }
 
 } // namespace
 
 void writePng(const Picture& picture, OutputFile& file)
 {
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, stayQuiet);
-    png_infop info = png ? png_create_info_struct(png) : nullptr;
-    std::vector<std::uint8_t> bytes, pixels;
-    if (!picture.alpha.empty()) {
-        pixels.reserve(4 * picture.alpha.size());
-        for (std::size_t i = 0; i < picture.alpha.size(); ++i) {
-            const auto rgb = picture.rgb.begin() + std::ptrdiff_t(3 * i);
-            pixels.insert(pixels.end(), rgb, rgb + 3);
-            pixels.push_back(picture.alpha[i]);
-        }
+    file.write("\x89PNG\r\n\x1a\n", 8);
+    Bytes head;
+    append32(std::uint32_t(picture.width), head);
+    append32(std::uint32_t(picture.height), head);
+    const std::uint8_t kind = picture.alpha.empty() ? 2 : 6; // RGB, RGB and alpha
+    head.insert(head.end(), {8, kind, 0, 0, 0});             // of 8 bits, not interlaced
+    writeChunk("IHDR", head, file);
+    if (picture.dpi > 0.0) {
+        constexpr double inch = 0.0254; // [m]
+        Bytes size;
+        for (int a = 0; a < 2; ++a) append32(std::uint32_t(std::lround(picture.dpi / inch)), size);
+        size.push_back(1); // of a metre
+        writeChunk("pHYs", size, file);
     }
-    const bool good =
-        info && encodePng(picture, pixels.empty() ? picture.rgb : pixels, png, info, bytes);
-    png_destroy_write_struct(&png, &info);
-    if (!good) throw Error(ErrorKind::Output, "cannot write " + file.path() + ": libpng failed");
-    file.write(bytes.data(), bytes.size());
+    writeChunk("IDAT", packed(filteredRows(picture)), file);
+    writeChunk("IEND", {}, file);
     file.finish();
 }
 
