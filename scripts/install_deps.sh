@@ -12,10 +12,10 @@ packages=(
   libopenvdb-dev libnanovdb-dev libtbb-dev libimath-dev libblosc-dev
   libboost-dev libboost-iostreams-dev libboost-program-options-dev
   gemmi-dev tao-pegtl-dev libstb-dev # gemmi's headers include the other two without saying so
-  nlohmann-json3-dev libpng-dev libfreetype-dev fonts-dejavu-core zlib1g-dev libsodium-dev libembree-dev
+  nlohmann-json3-dev libfreetype-dev fonts-dejavu-core zlib1g-dev libsodium-dev libembree-dev
   python3-dev python3-venv # of the Python module, whose other tools pip loads
 )
-test=(libgtest-dev libcgal-dev pkg-config python3 python3-openvdb python3-numpy python3-biopython libopenvdb-tools)
+test=(libgtest-dev libcgal-dev libpng-dev pkg-config python3 python3-openvdb python3-numpy python3-biopython libopenvdb-tools)
 check=(clang-format libbenchmark-dev universal-ctags)
 optional=(apbs blender chromium ffmpeg fish freesasa gmsh groff munge pymol slurm-wlm snakemake strace tetgen zsh) # 1.4 GB
 # Node.js may be there from elsewhere, whose packages do not go together with Debian's.
