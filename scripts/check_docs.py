@@ -34,7 +34,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 SOURCES = ("src", "tools", "tests", "bench")
 # Folders that a run, a build or a user makes; paths into them are not held against the tree.
 MADE = re.compile(r"(build|example|install|paper|surfaces|assembly|batch|bricks|pdb|structures"
-                  r"|accuracy|art|bio|colors|compare|complexes|formats|frames|gallery|many|performance|settings|standins|start|viewers)\b")
+                  r"|accuracy|art|bio|colors|compare|complexes|formats|frames|gallery|many|settings|standins|start|viewers)\b")
 # Namespaces of other people.
 FOREIGN = {"std", "openvdb", "tbb", "gemmi", "boost", "CGAL", "molsurf"}
 # Names in backticks that look like ours, and are another program's or a file's.

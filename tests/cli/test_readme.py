@@ -22,7 +22,7 @@ PAGES = [README, *sorted(DOCS.rglob("*.md"))]
 # The folder that the commands of each page write into; git ignores it. Every page with a block of shell is run.
 FOLDERS = {"README": "start", "accuracy": "accuracy", "artists": "art", "colors": "colors", "compare": "compare",
            "complexes": "complexes", "formats": "formats", "gallery": "gallery", "other_programs": "viewers",
-           "performance": "performance", "pipelines": "many", "pockets": "pockets", "pores": "pores", "selections": "selections", "settings": "settings", "stand_ins": "standins",
+           "pipelines": "many", "pockets": "pockets", "pores": "pores", "selections": "selections", "settings": "settings", "stand_ins": "standins",
            "structural_biology": "bio", "structures": "atoms", "trajectories": "frames"}
 # Those that one clone runs in every build; all of them do with MOLSURF_ALL_GUIDES (scripts/nightly.sh).
 FEW = ("README", "settings", "other_programs", "compare")
