@@ -318,8 +318,8 @@ bool asksForNumbers(const CommandLine& call)
 {
     const std::optional<ValueBy>& value = call.labels.valueBy;
     const bool unit = call.atoms.assembly.bySymmetry; // a mesh of it says nothing more of the whole
-    // Estimates, bricks and prototypes are of grids; completeAreas() refuses them with areas.
-    const bool ofGrid = call.dryRun || call.memory > 0 || call.atoms.assembly.instances;
+    // Bricks and prototypes are of grids; completeAreas() refuses them with areas.
+    const bool ofGrid = call.memory > 0 || call.atoms.assembly.instances;
     const unsigned some =
         Areas | FrameRows | Shares | (ofGrid && call.areas.empty() ? 0u : Numbers);
     return (call.verb & (Build | Batch)) != 0 && hasClosedForm(call.options) &&
