@@ -24,9 +24,8 @@ constexpr float sharpest = 4.0f;       // curvature of a crease [1/voxel]
 
 } // namespace
 
-void LeafDistances::compute(const std::int32_t* index, const std::uint16_t* voxels,
-                                           int count, const LeafMask& negative, float level,
-                                           float* out)
+void LeafDistances::compute(const std::int32_t* index, const std::uint16_t* voxels, int count,
+                            const LeafMask& negative, float level, float* out)
 {
     constexpr float sharp = 2.0f; // from the level: where points are moved [voxel]
     waiting_ = 0;
