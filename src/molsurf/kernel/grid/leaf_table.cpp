@@ -271,7 +271,7 @@ struct Extent {
 LeafMask dilatedMask(const LeafTable& table, const std::vector<LeafMask>& masks, std::size_t n,
                      bool full)
 {
-    static const LeafMask none;
+    static constexpr LeafMask none;
     NearWords near;
     for (std::size_t k = 0; k < 27; ++k) {
         const std::int32_t m = table.neighbours(n)[k];

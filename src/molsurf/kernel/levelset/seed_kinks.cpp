@@ -6,7 +6,6 @@
 #include "molsurf/kernel/levelset/kink.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -60,14 +59,9 @@ void gatherNormals(const NearestSeeds& near, const SeedBlock& index, Normals& no
 {
     constexpr int dim = Normals::dim;
     constexpr int ahead = 3; // rows, to ask for seeds: they lie scattered in memory
-    static constexpr std::array<std::int32_t, dim> none = [] {
-        std::array<std::int32_t, dim> out{};
-        for (auto& seed : out) seed = noSeed;
-        return out;
-    }();
     for (float* numbers : normals.n)
         std::fill_n(numbers, dim * dim * dim, std::numeric_limits<float>::quiet_NaN());
-    const std::int32_t* rows[dim * dim + ahead]; // that have a seed
+    const std::int32_t* rows[dim * dim]; // that have a seed
     int places[dim * dim], count = 0;
     for (int row = 0; row < dim * dim; ++row) {
         const std::int32_t* in = index.at(row / dim, row % dim, 0);
@@ -77,10 +71,10 @@ void gatherNormals(const NearestSeeds& near, const SeedBlock& index, Normals& no
         places[count] = dim * row;
         count += all != noSeed;
     }
-    std::fill_n(rows + count, ahead, none.data());
     for (int i = 0; i < count; ++i) {
+        const std::int32_t* later = rows[std::min(i + ahead, count - 1)];
         for (int z = 0; z < dim; ++z) {
-            const std::int32_t seed = rows[i][z], soon = rows[i + ahead][z];
+            const std::int32_t seed = rows[i][z], soon = later[z];
             if (soon != noSeed) __builtin_prefetch(&near[soon]);
             if (seed == noSeed) continue;
             const Vec3f& n = near[seed].n;

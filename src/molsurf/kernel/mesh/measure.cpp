@@ -76,7 +76,7 @@ MOLSURF_INLINE auto dot(const V& u, const V& v)
 /// Positions are taken relative to the first corner: so small that float is enough.
 MOLSURF_KERNEL void measurePatches(const Vec3d& origin, Patches& s)
 {
-    Vectors p[3], mid[3], bulge = {}; // mid: opposite to corner k
+    Vectors p[3], mid[3]; // mid: opposite to corner k
     for (int k = 0; k < 3; ++k)
         for (int a = 0; a < 3; ++a) p[k][a] = s.corner[k][a] - s.corner[0][a];
     DoubleVectors bulges[2] = {};
@@ -92,7 +92,7 @@ MOLSURF_KERNEL void measurePatches(const Vec3d& origin, Patches& s)
             mid[k][a] = 0.5f * (p[i][a] + p[j][a]) + arc[a];
         }
         // 3/2 of what the arc over the edge adds to the integral of the normal over the triangle
-        bulge = cross(arc, edge);
+        const Vectors bulge = cross(arc, edge);
         for (int half = 0; half < 2; ++half) {
             const DoubleVectors b = halfOf(bulge, half);
             for (int a = 0; a < 3; ++a) bulges[half][a] += b[a];

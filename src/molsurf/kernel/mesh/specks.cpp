@@ -44,11 +44,12 @@ struct Piece {
     std::vector<std::size_t> triangles;
 };
 
-double triangleArea(const Mesh& mesh, std::size_t triangle)
+/// The normal of a triangle, as long as its area [Å^2].
+Vec3d areaVector(const Mesh& mesh, std::size_t triangle)
 {
     const auto& t = mesh.triangles[triangle];
     const Vec3d a(mesh.positions[t[0]]);
-    return 0.5 * (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a).length();
+    return 0.5 * (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a);
 }
 
 /// The winding number of a piece about a point, without sign, by the solid angles of its triangles:
@@ -239,12 +240,8 @@ std::optional<std::vector<char>> dropSpecks(MeshPieces& pieces, openvdb::FloatGr
     // A piece that is cut open has no volume.
     const std::vector<std::size_t> triangles = trianglesOf(mesh, pieces, small);
     std::vector<Vec3d> normals(count, Vec3d(0.0));
-    for (const std::size_t n : triangles) {
-        const auto& t = mesh.triangles[n];
-        const Vec3d a(mesh.positions[t[0]]);
-        normals[pieces.of[t[0]]] +=
-            0.5 * (Vec3d(mesh.positions[t[1]]) - a).cross(Vec3d(mesh.positions[t[2]]) - a);
-    }
+    for (const std::size_t t : triangles)
+        normals[pieces.of[mesh.triangles[t][0]]] += areaVector(mesh, t);
     for (std::size_t p = 0; p < count; ++p)
         small[p] = small[p] && normals[p].length() <= rounding * pieces.measures[p].area;
     if (std::find(small.begin(), small.end(), 1) == small.end()) return std::nullopt;
@@ -264,7 +261,7 @@ std::optional<std::vector<char>> dropSpecks(MeshPieces& pieces, openvdb::FloatGr
         if (small[p]) fill(mesh, specks[p], surface);
     for (const Piece& speck : specks) {
         for (const std::size_t t : speck.triangles) {
-            const double area = triangleArea(mesh, t);
+            const double area = areaVector(mesh, t).length();
             pieces.triangles.area -= area;
             pieces.triangles.flat -= area == 0.0;
         }

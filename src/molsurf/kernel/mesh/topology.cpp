@@ -43,18 +43,16 @@ std::vector<std::uint32_t> trianglesAt(const Mesh& mesh, const VertexSet& some,
 }
 
 /// Counting sort of triangles by the places of their corners, by all threads at once.
-/// @param[in] count     of the triangles
-/// @param[in] triangle  the i-th of them
-/// @param[in] visit     visit(triangle, take) calls take(place) for corners of a triangle
-template<typename Triangle, typename Visit>
-VertexTriangles listed(std::size_t count, const Triangle& triangle, std::size_t places,
-                       const Progress& progress, const Visit& visit)
+/// @param[in] count  of the triangles
+/// @param[in] visit  visit(n, take) calls take(place, triangle) for corners of the n-th of them
+template<typename F>
+VertexTriangles listed(std::size_t count, std::size_t places, const Progress& progress,
+                       const F& visit)
 {
     constexpr auto relaxed = std::memory_order_relaxed;
     std::vector<std::atomic<std::uint32_t>> next(places); // place in the list
     forEach(count, progress, [&](std::uint32_t n) {
-        const std::uint32_t i = triangle(n);
-        visit(i, [&](std::uint32_t place) { next[place].fetch_add(1, relaxed); });
+        visit(n, [&](std::uint32_t place, std::uint32_t) { next[place].fetch_add(1, relaxed); });
     });
     VertexTriangles out;
     out.begins.resize(places + 1, 0);
@@ -64,9 +62,9 @@ VertexTriangles listed(std::size_t count, const Triangle& triangle, std::size_t 
     }
     out.triangles.resize(out.begins.back());
     forEach(count, progress, [&](std::uint32_t n) {
-        const std::uint32_t i = triangle(n);
-        visit(i,
-              [&](std::uint32_t place) { out.triangles[next[place].fetch_add(1, relaxed)] = i; });
+        visit(n, [&](std::uint32_t place, std::uint32_t triangle) {
+            out.triangles[next[place].fetch_add(1, relaxed)] = triangle;
+        });
     });
     // Threads come in any order.
     parallelFor(places, progress, [&](std::size_t n) {
@@ -79,22 +77,19 @@ VertexTriangles listed(std::size_t count, const Triangle& triangle, std::size_t 
 
 VertexTriangles vertexTriangles(const Mesh& mesh)
 {
-    return listed(
-        mesh.triangles.size(), [](std::uint32_t n) { return n; }, mesh.positions.size(), Progress(),
-        [&](std::uint32_t i, const auto& take) {
-            for (const std::uint32_t v : mesh.triangles[i]) take(v);
-        });
+    return listed(mesh.triangles.size(), mesh.positions.size(), Progress(),
+                  [&](std::uint32_t i, const auto& take) {
+                      for (const std::uint32_t v : mesh.triangles[i]) take(v, i);
+                  });
 }
 
 VertexTriangles vertexTriangles(const Mesh& mesh, const VertexSet& some, const Progress& progress)
 {
     const std::vector<std::uint32_t> at = trianglesAt(mesh, some, progress);
-    return listed(
-        at.size(), [&](std::uint32_t n) { return at[n]; }, some.size(), progress,
-        [&](std::uint32_t i, const auto& take) {
-            for (const std::uint32_t v : mesh.triangles[i])
-                if (some.has(v)) take(some.place(v));
-        });
+    return listed(at.size(), some.size(), progress, [&](std::uint32_t n, const auto& take) {
+        for (const std::uint32_t v : mesh.triangles[at[n]])
+            if (some.has(v)) take(some.place(v), at[n]);
+    });
 }
 
 VertexSet withNeighbours(const Mesh& mesh, const VertexSet& some, const Progress& progress)
