@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MPL-2.0
 """Runs a file of tests, or a part of it:
     run.py TOPIC [--only NEED... | --without [NEED...]]
-See needs.py. The status is 77 if tests were skipped and none failed."""
+See needs.py. The status is 77 if tests were skipped and none failed. --without names every need of the file: a test of
+another need would skip the whole where that is missing, and fails here."""
 
 import argparse
 import sys
@@ -28,6 +29,9 @@ def main():
     words = parser.parse_args()
     tests = [test for test in each(unittest.defaultTestLoader.loadTestsFromName(f"test_{words.topic}"))
              if (need_of(test) in words.only if words.only else need_of(test) not in words.without)]
+    unnamed = {need_of(test) for test in tests} - {None} - set(words.only or [])
+    if unnamed:
+        sys.exit(f"CMakeLists.txt: cli_test({words.topic} ...): expected the needs {' '.join(sorted(unnamed))} too")
     if not tests:
         sys.exit("there are no such tests")
     result = unittest.TextTestRunner().run(unittest.TestSuite(tests))
