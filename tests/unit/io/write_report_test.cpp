@@ -95,12 +95,15 @@ TEST(WriteReport, HasTheKeysOfTheTableAndNoOthers)
     report.resolutions.resize(1);
     report.groups = {{"A", 1, 1.0, 1.0, "#ff0000", 2.0}};
     report.interfaces.resize(1);
-    report.pockets.emplace().list.resize(1);
+    report.pockets = Report::Pockets{};
+    report.pockets->list.resize(1);
     report.pockets->list[0].mouths.resize(1);
-    report.pore.emplace().stations.resize(1);
+    report.pore = Report::Pore{};
+    report.pore->stations.resize(1);
     report.pore->stations[0].isBottleneck = true;
     report.pore->others.resize(1);
-    report.tunnels.emplace().list.resize(1);
+    report.tunnels = Report::Tunnels{};
+    report.tunnels->list.resize(1);
     report.tunnels->list[0].stations.resize(1);
     report.tunnels->list[0].stations[0].isBottleneck = true;
     report.parts.resize(1);
