@@ -237,6 +237,22 @@ std::size_t sampleOfRest(std::size_t leaves)
     return every;
 }
 
+/// Of how many cells of 1 Å one is looked at: a sum makes its list of terms once a cell, and small
+/// voxels have more places in it than voxels of 1 Å.
+int sampleOfCells(double voxelSize)
+{
+    int every = 4;
+    while (every > 1 && every * voxelSize * voxelSize > 1.0) every /= 2;
+    return every;
+}
+
+/// Whether a place is in one of these cells.
+bool isInSample(const openvdb::Vec3d& x, int every)
+{
+    const openvdb::Coord cell = openvdb::Coord::floor(x);
+    return ((cell.x() + 2 * cell.y() + 3 * cell.z()) & (every - 1)) == 0;
+}
+
 } // namespace
 
 Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, const GaussianSum& sum,
@@ -245,6 +261,7 @@ Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, cons
     const LeafTable& table = psi.table;
     const float h = float(psi.voxelSize), inverse = 1.0f / h;
     const std::size_t every = sampleOfRest(table.size());
+    const int everyCell = every > 1 ? sampleOfCells(psi.voxelSize) : 1;
     std::vector<std::size_t> leaves;
     for (std::size_t n = 0; n < table.size(); ++n) {
         const openvdb::Coord& origin = table.origin(n);
@@ -267,11 +284,13 @@ Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, cons
         for (std::size_t k = 0; k < crossings.edges.size(); ++k) {
             const EdgeCrossings::Edge& edge = crossings.edges[k];
             const GaussianSum::Point& p = crossings.points[k];
+            const openvdb::Vec3d x =
+                (origin.asVec3d() + openvdb::Vec3d(p.x, p.y, p.z)) * psi.voxelSize;
+            if (!isInSample(x, everyCell)) continue;
             const float* at = v.values + edge.from;
             const PsiJet ofLevel = between(derivatives<2>(at, inverse),
                                            derivatives<2>(at + edge.step, inverse), edge.t);
-            const PsiJet jet = sum.jetWithBumps((origin.asVec3d() + openvdb::Vec3d(p.x, p.y, p.z)) *
-                                                psi.voxelSize);
+            const PsiJet jet = sum.jetWithBumps(x);
             const double way = wayToRest(jet, ofLevel, rest.slope.leaf(n)[edge.voxel], weights);
             ways.add(float(std::abs(way)) * inverse);
         }

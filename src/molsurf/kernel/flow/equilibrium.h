@@ -54,7 +54,7 @@ struct RestingLevels {
 /// @param[in] psi     with the bumps of the sum
 /// @param[in] region  whose own leaves count
 /// @return ways [voxel] at a sample of leaves: all of fewer than 64, then every second, fourth and
-///         eighth, and every sixteenth of 512 or more
+///         eighth, and every sixteenth of 512 or more; there as many places as voxels of 1 Å have
 Displacements waysToRest(const SparseField& psi, const RestingLevels& rest, const GaussianSum& sum,
                          const Weights& weights, const Region& region, const Progress& progress);
 
