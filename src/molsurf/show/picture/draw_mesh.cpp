@@ -70,8 +70,7 @@ public:
         : view_(view), style_(style), options_(options),
           background_(linearLight(options.background))
     {
-        const Vec3f lamp = Tracer::lamp();
-        half_ = (lamp + Vec3f(0.0f, 0.0f, 1.0f)).unit();
+        half_ = (lamp_ + Vec3f(0.0f, 0.0f, 1.0f)).unit();
     }
 
     /// Adds a layer behind those before.
@@ -96,25 +95,49 @@ private:
     /// @param[in] ink  of samples, from 0 to 255; empty: there are no lines
     Light pixelOf(const Layer& layer, const std::vector<std::uint8_t>& ink, int x, int y) const
     {
-        Light out;
+        const std::size_t first =
+            std::size_t(subpixels * y) * columns() + std::size_t(subpixels * x);
+        const Places places = {first, first + 1, first + columns(), first + columns() + 1};
+        const auto isDrawn = [&](std::size_t n) { return !ink.empty() && ink[n] > 0; };
+        const bool drawn = std::any_of(places.begin(), places.end(), isDrawn);
+        const bool any = std::any_of(places.begin(), places.end(),
+                                     [&](std::size_t n) { return layer.seen[n].any(); });
+        if (!any && !drawn) return {};
         const Shade shared = smoothed(layer, x, y);
-        for (int s = 0; s < int(samplesPerPixel); ++s) {
-            const std::size_t n = std::size_t(subpixels * y + s / subpixels) * columns() +
-                                  std::size_t(subpixels * x + s % subpixels);
+        if (!drawn && areNearlyOne(layer, places)) return lightOf(meanOf(layer, places), shared);
+        Light out;
+        for (const std::size_t n : places) {
             const Seen& seen = layer.seen[n];
-            const float drawn = ink.empty() ? 0.0f : style_.ink * float(ink[n]) / 255.0f;
-            if (!seen.any() && drawn == 0.0f) continue;
-            Light one;
-            if (seen.any()) {
-                one.cover = opacityOf(seen);
-                one.light = one.cover * colorOf(seen, shared);
-            }
-            one.light = (1.0f - drawn) * one.light + Vec3f(drawn * inkLight);
-            one.cover = 1.0f - (1.0f - one.cover) * (1.0f - drawn);
+            const float line = isDrawn(n) ? style_.ink * float(ink[n]) / 255.0f : 0.0f;
+            Light one = seen.any() ? lightOf(seen, shared) : Light();
+            one.light = (1.0f - line) * one.light + Vec3f(line * inkLight);
+            one.cover = 1.0f - (1.0f - one.cover) * (1.0f - line);
             out.light += one.light / float(samplesPerPixel);
             out.cover += one.cover / float(samplesPerPixel);
         }
         return out;
+    }
+
+    /// Whether the light of samples is that of their mean, to less than a step of a byte.
+    bool areNearlyOne(const Layer& layer, const Places& places) const
+    {
+        constexpr int turned = 32767 / 10, shades = 4; // of normals and colours
+        const Seen& one = layer.seen[places[0]];
+        if (opacityOf(one) < 1.0f) return false; // that of the others may be another
+        return std::all_of(places.begin(), places.end(), [&](std::size_t n) {
+            const Seen& seen = layer.seen[n];
+            bool near = seen.any() && seen.piece == one.piece &&
+                        std::max(std::abs(seen.nx - one.nx), std::abs(seen.ny - one.ny)) <= turned;
+            for (std::size_t k = 0; k < 3; ++k)
+                near = near && std::abs(int(seen.color[k]) - int(one.color[k])) <= shades;
+            return near;
+        });
+    }
+
+    Light lightOf(const Seen& seen, const Shade& shared) const
+    {
+        const float cover = opacityOf(seen);
+        return {cover * colorOf(seen, shared), cover};
     }
 
     /// The law of Beer and Lambert for a thin skin: a slanted ray goes 1 / cosine as far in it.
@@ -136,7 +159,7 @@ private:
             const Vec3f normal = seen.normal();
             const Vec3f fill = Vec3f(0.75f, 0.1f, 0.65f);
             const float seenLamp = 1.0f - style_.shadow * (1.0f - shared.lit);
-            const float key = std::max(0.0f, normal.dot(Tracer::lamp())) * seenLamp;
+            const float key = std::max(0.0f, normal.dot(lamp_)) * seenLamp;
             // Walls that hide the sky give back less the deeper the hollow is: the share of sky
             // counts with the power 1.5, and dims lamp and fill too.
             const float open = shared.open * std::sqrt(shared.open);
@@ -235,6 +258,7 @@ private:
     const View& view_;
     const PictureStyle& style_;
     const DrawOptions& options_;
+    const Vec3f lamp_ = Tracer::lamp();
     Vec3f background_, half_;
 };
 

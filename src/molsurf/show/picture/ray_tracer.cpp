@@ -117,6 +117,27 @@ Tracer::Tracer(const Mesh& mesh, const View& view, const PictureStyle& style,
         bodies_.emplace(options.model->bodies.mesh, asTheyAre);
 }
 
+Seen meanOf(const Layer& layer, const Places& places)
+{
+    Seen mean = layer.seen[places[0]];
+    if (!mean.any()) return mean;
+    int nx = 0, ny = 0;
+    float depth = 0.0f;
+    std::array<int, 3> color{};
+    for (const std::size_t n : places) {
+        const Seen& seen = layer.seen[n];
+        nx += seen.nx;
+        ny += seen.ny;
+        depth += seen.depth;
+        for (std::size_t k = 0; k < 3; ++k) color[k] += seen.color[k];
+    }
+    mean.depth = depth / 4.0f;
+    mean.nx = std::int16_t(nx / 4);
+    mean.ny = std::int16_t(ny / 4);
+    for (std::size_t k = 0; k < 3; ++k) mean.color[k] = std::uint8_t((color[k] + 2) / 4);
+    return mean;
+}
+
 Layer Tracer::first(const Progress& progress) const
 {
     return trace(nullptr, progress);
@@ -235,59 +256,55 @@ void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) cons
 void Tracer::lookBetween(int y, Layer& layer) const
 {
     Samples others;
-    for (int row = subpixels * y; row < subpixels * (y + 1); ++row) {
-        const bool sent = row % 2 == 0; // through every other one
-        for (int column = sent; column < subpixels * view_.width; column += sent ? 2 : 1) {
-            if (const auto mean = between(layer, column, row)) {
-                layer.seen[placeOf(column, row)] = *mean;
+    for (int x = 0; x < view_.width; ++x) {
+        const int column = subpixels * x, row = subpixels * y;
+        // What the four about the last sample see is smooth between any of them, too.
+        const auto cell = sentAbout(column + 1, row + 1);
+        const bool smooth = cell && areAlike(layer, *cell);
+        for (const std::array<int, 2>& at :
+             {std::array<int, 2>{column + 1, row}, std::array<int, 2>{column, row + 1},
+              std::array<int, 2>{column + 1, row + 1}}) {
+            const auto about = sentAbout(at[0], at[1]);
+            if (smooth || (about && areAlike(layer, *about))) {
+                layer.seen[placeOf(at[0], at[1])] = meanOf(layer, *about);
             } else {
-                others.push_back({column, row});
+                others.push_back(at);
             }
         }
     }
     look(others, nullptr, layer);
 }
 
-/// The mean of the samples about one that have had a ray, if they see the same smooth piece of
-/// surface.
-std::optional<Seen> Tracer::between(const Layer& layer, int column, int row) const
+/// The places of the samples about one that have had a ray, some twice; none at the picture's end.
+std::optional<Places> Tracer::sentAbout(int column, int row) const
 {
-    constexpr float flat = 0.98f, steepest = 0.25f; // cosines: of normals, and to the eye
-    constexpr int mostColors = 16;                  // of 255, between two samples
     const int left = column - column % 2, right = column + column % 2;
     const int above = row - row % 2, below = row + row % 2;
     if (right >= subpixels * view_.width || below >= subpixels * view_.height) return {};
-    const std::array<std::size_t, 4> about = {placeOf(left, above), placeOf(right, above),
-                                              placeOf(left, below), placeOf(right, below)};
-    const Seen& one = layer.seen[about[0]];
+    return Places{placeOf(left, above), placeOf(right, above), placeOf(left, below),
+                  placeOf(right, below)};
+}
+
+/// Whether samples see the same smooth piece of surface, or nothing.
+bool Tracer::areAlike(const Layer& layer, const Places& places) const
+{
+    constexpr float flat = 0.98f, steepest = 0.25f; // cosines: of normals, and to the eye
+    constexpr int mostColors = 16;                  // of 255, between two samples
+    const Seen& one = layer.seen[places[0]];
     const Vec3f normal = one.normal();
+    if (one.any() && normal[2] < steepest) return false;
     const float deepest = float(2.0 * view_.pixel / steepest);
-    int nx = 0, ny = 0;
-    float depth = 0.0f;
-    std::array<int, 3> color{};
-    for (const std::size_t n : about) {
+    const int most = options_.borders ? 0 : mostColors;
+    return std::all_of(places.begin() + 1, places.end(), [&](std::size_t n) {
         const Seen& other = layer.seen[n];
-        if (other.any() != one.any() || other.piece != one.piece) return {};
-        if (!one.any()) continue;
+        if (other.any() != one.any() || other.piece != one.piece) return false;
+        if (!one.any()) return true;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (std::abs(int(other.color[k]) - int(one.color[k])) > most) return false;
         const Vec3f way = other.normal();
-        if (way.dot(normal) < flat || way[2] < steepest) return {};
-        if (std::abs(other.depth - one.depth) > deepest) return {};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const int change = std::abs(int(other.color[k]) - int(one.color[k]));
-            if (change > (options_.borders ? 0 : mostColors)) return {};
-            color[k] += other.color[k];
-        }
-        nx += other.nx;
-        ny += other.ny;
-        depth += other.depth;
-    }
-    Seen mean = one;
-    if (!one.any()) return mean;
-    mean.depth = depth / 4.0f;
-    mean.nx = std::int16_t(nx / 4);
-    mean.ny = std::int16_t(ny / 4);
-    for (std::size_t k = 0; k < 3; ++k) mean.color[k] = std::uint8_t((color[k] + 2) / 4);
-    return mean;
+        return way.dot(normal) >= flat && way[2] >= steepest &&
+               std::abs(other.depth - one.depth) <= deepest;
+    });
 }
 
 PixelLight Tracer::lightOf(int x, int y, bool isFirst, const Layer& layer) const

@@ -93,6 +93,12 @@ struct Layer {
     bool empty = true;
 };
 
+/// Four samples, by their places in Layer::seen.
+using Places = std::array<std::size_t, 4>;
+
+/// The mean of samples that see nearly the same, or all see nothing.
+Seen meanOf(const Layer& layer, const Places& places);
+
 /// Triangles in Embree's hands, as they are or in copies.
 struct Shapes {
     /// @param[in] some  of the triangles, those that rays meet; empty: all
@@ -162,7 +168,8 @@ private:
     }
     void look(const Samples& samples, const Layer* front, Layer& layer) const;
     void lookBetween(int y, Layer& layer) const;
-    std::optional<Seen> between(const Layer& layer, int column, int row) const;
+    std::optional<Places> sentAbout(int column, int row) const;
+    bool areAlike(const Layer& layer, const Places& places) const;
     EyeRays from(const std::array<int, 2>* samples, const std::array<float, packet>& depths) const;
     RTCRayHit4 meet(const RayScene& scene, const EyeRays& eye) const;
     PixelLight lightOf(int x, int y, bool isFirst, const Layer& layer) const;
