@@ -17,7 +17,7 @@ LINES, PARAMETERS = 70, 6
 
 LONGER = {}
 WIDER = {"candidates": 10, "computeBrick": 9, "mergeBricks": 8, "surfaceOf": 7,
-         "ballValues": 7, "writeOutput": 7, "writeAll": 7, "moveToSurface": 7, "evolve": 7,
+         "ballValues": 7, "writeOutput": 7, "writeAll": 7, "evolve": 7,
          "addArc": 7,
          # kernels: rows of fields, and what a loop carries along
          "nearestInCube": 9, "nearestOf": 8, "curvatureRows": 9, "carry": 8, "coefficientRows": 9,

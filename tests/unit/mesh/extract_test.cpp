@@ -60,13 +60,13 @@ TEST(MoveToSurface, OfManyPointsGoesTheWayOfOne)
         if (std::abs(ring.distance(x)) < 0.9 * voxel) starts.emplace_back(x);
     }
     Mesh mesh;
-    mesh.positions.resize(starts.size());
+    mesh.positions = starts;
     mesh.normals.resize(starts.size());
     for (const char* name : {"mean", "gauss"})
         mesh.scalars.push_back({name, std::vector<float>(starts.size())});
     std::vector<float> slopes(starts.size()), residuals(starts.size());
     SurfaceVertices vertices{mesh, slopes};
-    moveToSurface(spline, voxel, starts.data(), starts.size(), 0, vertices, residuals.data());
+    moveToSurface(spline, voxel, 0, starts.size(), vertices, residuals.data());
     SplineSampler sampler(spline);
     for (std::size_t i = 0; i < starts.size(); ++i) {
         Vec3d x(starts[i]);
@@ -88,15 +88,14 @@ TEST(MoveToSurface, FindsAZeroThatHasNoSign)
     const double voxel = 0.5;
     const auto field = [](const Vec3d& x) { return 0.2 * x.lengthSqr() + 1e-7; };
     const Spline spline = test::splineOf(field, field, Vec3d(0.0), 3.0, voxel, 6.0 * voxel);
-    const openvdb::Vec3s start(0.2f, 0.25f, 0.3f); // the gradient leads toward a minimum
     Mesh mesh;
-    mesh.positions.resize(1);
+    mesh.positions = {{0.2f, 0.25f, 0.3f}}; // the gradient leads toward a minimum
     mesh.normals.resize(1);
     for (const char* name : {"mean", "gauss"}) mesh.scalars.push_back({name, {0.0f}});
     std::vector<float> slopes(1);
     float residual = 1.0f;
     SurfaceVertices vertices{mesh, slopes};
-    moveToSurface(spline, voxel, &start, 1, 0, vertices, &residual);
+    moveToSurface(spline, voxel, 0, 1, vertices, &residual);
     EXPECT_LT(residual, 1e-6f);
     EXPECT_LT(mesh.positions[0].length(), 1e-6f);
 }

@@ -78,4 +78,11 @@ void trimHeap()
 #endif
 }
 
+void trimLargeHeap()
+{
+#ifdef __GLIBC__
+    if (mallinfo2().fordblks >= std::size_t(64) << 20) malloc_trim(0);
+#endif
+}
+
 } // namespace molsurf

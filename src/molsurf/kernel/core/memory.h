@@ -30,4 +30,7 @@ void needMemory(const std::string& what, double more, std::size_t memory);
 /// leave.
 void trimHeap();
 
+/// The same where it is much, some 64 MiB: to get less anew costs more than it is worth.
+void trimLargeHeap();
+
 } // namespace molsurf

@@ -2,6 +2,7 @@
 #include "molsurf/kernel/mesh/extract.h"
 
 #include "molsurf/kernel/core/cancel.h"
+#include "molsurf/kernel/core/memory.h"
 #include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/mesh/surface_vertices.h"
 #include "molsurf/kernel/mesh/triangle_shape.h"
@@ -66,19 +67,36 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
     openvdb::tools::VolumeToMesh mesher;
     meshVolume(surface, mesher);
     stopIfCancelled(progress);
-    const openvdb::Vec3s* starts = mesher.pointList().get();
     openvdb::tools::PolygonPoolList& pools = mesher.polygonPoolList(); // quads alone, by leaf
     std::vector<std::size_t> begins(mesher.polygonPoolListSize() + 1, 0);
     for (std::size_t n = 0; n + 1 < begins.size(); ++n)
-        begins[n + 1] = begins[n] + pools[n].numQuads();
+        begins[n + 1] = begins[n] + 2 * pools[n].numQuads();
 
     Mesh mesh;
     const std::size_t count = mesher.pointListSize();
+    // What the mesher made gives its memory back before the mesh takes more.
+    const auto takePoints = [&] {
+        mesh.positions.assign(mesher.pointList().get(), mesher.pointList().get() + count);
+        mesher.pointList().reset();
+    };
+    const auto takeQuads = [&] {
+        mesh.triangles.resize(begins.back());
+        parallelFor(begins.size() - 1, progress, [&](std::size_t n) {
+            for (std::size_t i = 0; i < pools[n].numQuads(); ++i) {
+                // OpenVDB's polygons run clockwise seen from outside.
+                const auto& q = pools[n].quad(i);
+                const auto halves = halvesOf(q[3], q[2], q[1], q[0]);
+                std::copy_n(halves.begin(), 2, mesh.triangles.begin() + begins[n] + 2 * i);
+            }
+            pools[n].clearQuads();
+        });
+    };
+    tbb::parallel_invoke(takePoints, takeQuads);
+    trimLargeHeap(); // of quads
     for (const char* name : {"mean_curvature", "gaussian_curvature"})
         mesh.scalars.push_back({name, {}});
     // The first touch of memory takes long: none of these waits for another.
-    tbb::parallel_invoke([&] { mesh.positions.resize(count); }, [&] { mesh.normals.resize(count); },
-                         [&] { stats.slopes.resize(count); },
+    tbb::parallel_invoke([&] { mesh.normals.resize(count); }, [&] { stats.slopes.resize(count); },
                          [&] { mesh.scalars[0].values.resize(count); },
                          [&] { mesh.scalars[1].values.resize(count); },
                          [&] { stats.cells.resize(stats.keepCells ? count : 0); },
@@ -88,32 +106,22 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
 
     const std::size_t chunks = (count + perSampler - 1) / perSampler;
     std::vector<float> largest(chunks, 0.0f);
-    const auto project = [&](std::size_t c) {
+    parallelFor(chunks, progress, [&](std::size_t c) {
         const std::size_t first = c * perSampler, end = std::min(count, first + perSampler);
         float residuals[perSampler];
-        moveToSurface(spline, voxel, starts + first, end - first, first, vertices, residuals);
+        if (stats.keepCells)
+            for (std::size_t v = first; v < end; ++v)
+                stats.cells[v] = Coord::floor(Vec3d(mesh.positions[v]) / voxel);
+        moveToSurface(spline, voxel, first, end, vertices, residuals);
         largest[c] = *std::max_element(residuals, residuals + (end - first));
-        if (!stats.keepCells) return;
-        for (std::size_t v = first; v < end; ++v)
-            stats.cells[v] = Coord::floor(Vec3d(starts[v]) / voxel);
-        std::copy_n(residuals, end - first, stats.residuals.begin() + std::ptrdiff_t(first));
-    };
-    tbb::parallel_invoke([&] { mesh.triangles.resize(2 * begins.back()); },
-                         [&] { parallelFor(chunks, progress, project); });
-    mesher.pointList().reset();
+        if (stats.keepCells)
+            std::copy_n(residuals, end - first, stats.residuals.begin() + std::ptrdiff_t(first));
+    });
     for (const float r : largest) stats.maxResidual = std::max(stats.maxResidual, double(r));
 
     VertexSet bad(count);
-    parallelFor(begins.size() - 1, progress, [&](std::size_t n) {
-        std::vector<std::array<std::uint32_t, 4>> quads(pools[n].numQuads());
-        for (std::size_t i = 0; i < quads.size(); ++i) {
-            // OpenVDB's polygons run clockwise seen from outside.
-            const auto& q = pools[n].quad(i);
-            quads[i] = {q[3], q[2], q[1], q[0]};
-        }
-        pools[n].clearQuads();
-        splitQuads(mesh, quads, mesh.triangles.data() + 2 * begins[n], bad);
-    });
+    parallelFor(begins.size() - 1, progress,
+                [&](std::size_t n) { splitQuads(begins[n], begins[n + 1], mesh, bad); });
     relax(vertices, spline, voxel, std::move(bad), progress);
     return mesh;
 }

@@ -229,15 +229,14 @@ std::vector<SurfacePoint> Remesher::project(const std::vector<openvdb::Vec3s>& s
     std::vector<SurfacePoint> out(count);
     parallelFor(begins.size() - 1, progress_, [&](std::size_t b) {
         const std::size_t first = begins[b], size = begins[b + 1] - first;
-        std::vector<openvdb::Vec3s> from(size);
-        for (std::size_t k = 0; k < size; ++k) from[k] = starts[order[first + k].second];
         Mesh mesh;
         mesh.positions.resize(size);
+        for (std::size_t k = 0; k < size; ++k) mesh.positions[k] = starts[order[first + k].second];
         mesh.normals.resize(size);
         mesh.scalars.resize(2, {"", std::vector<float>(size)});
         std::vector<float> slopes(size), residuals(size);
         SurfaceVertices there{mesh, slopes};
-        moveToSurface(spline_, voxel_, from.data(), size, 0, there, residuals.data());
+        moveToSurface(spline_, voxel_, 0, size, there, residuals.data());
         for (std::size_t k = 0; k < size; ++k)
             out[order[first + k].second] = {
                 mesh.positions[k],         mesh.normals[k],           slopes[k],

@@ -197,9 +197,8 @@ MOLSURF_KERNEL int nextSteps(const Field& f, Walker* walkers, int count)
 
 } // namespace
 
-void moveToSurface(const Spline& spline, double voxel, const openvdb::Vec3s* starts,
-                   std::size_t count, std::size_t first, SurfaceVertices& vertices,
-                   float* residuals)
+void moveToSurface(const Spline& spline, double voxel, std::size_t first, std::size_t end,
+                   SurfaceVertices& vertices, float* residuals)
 {
     constexpr int rounds = 7;
     const double h = spline.voxelSize();
@@ -207,15 +206,16 @@ void moveToSurface(const Spline& spline, double voxel, const openvdb::Vec3s* sta
     std::vector<Walker> walkers;
     Block block;
     const Field field(block.values, h, voxel / h);
-    for (std::size_t begin = 0, end; begin < count; begin = end) {
-        // The points of one leaf.
-        const auto originOf = [h](const openvdb::Vec3s& x) {
+    const std::vector<Vec3f>& positions = vertices.mesh.positions;
+    for (std::size_t begin = first, next; begin < end; begin = next) {
+        // The vertices of one leaf.
+        const auto originOf = [h](const Vec3f& x) {
             return Coord::floor(Vec3d(x) / h) & ~(leafDim - 1);
         };
-        const Coord origin = originOf(starts[begin]);
+        const Coord origin = originOf(positions[begin]);
         walkers.clear();
-        for (end = begin; end < count && originOf(starts[end]) == origin; ++end) {
-            const Vec3d x = Vec3d(starts[end]) / h - origin.asVec3d();
+        for (next = begin; next < end && originOf(positions[next]) == origin; ++next) {
+            const Vec3d x = Vec3d(positions[next]) / h - origin.asVec3d();
             Walker w;
             for (int a = 0; a < 3; ++a) w.x[a] = w.start[a] = float(x[a]);
             walkers.push_back(w);
@@ -229,23 +229,23 @@ void moveToSurface(const Spline& spline, double voxel, const openvdb::Vec3s* sta
             for (int i = 0; i < rounds; ++i)
                 if (nextSteps(field, walkers.data(), int(walkers.size())) == 0) break;
         }
-        for (std::size_t i = begin; i < end; ++i) {
-            const Walker& w = walkers[i - begin];
+        for (std::size_t v = begin; v < next; ++v) {
+            const Walker& w = walkers[v - begin];
             if (w.way == Way::There) {
                 const Vec3d x = (origin.asVec3d() + Vec3d(w.x[0], w.x[1], w.x[2])) * h;
-                vertices.set(first + i, Vec3f(x), Vec3f(w.normal), w.slope, field.inverse * w.mean,
+                vertices.set(v, Vec3f(x), Vec3f(w.normal), w.slope, field.inverse * w.mean,
                              field.inverse * field.inverse * w.gauss);
-                residuals[i] = w.residual * float(h);
+                residuals[v - first] = w.residual * float(h);
                 continue;
             }
-            Vec3d x(starts[i]);
+            Vec3d x(positions[v]);
             Jet jet;
             if (!moveToSurface(sampler, voxel, 1.0, x, jet)) {
-                x = Vec3d(starts[i]);
+                x = Vec3d(positions[v]);
                 bisect(sampler, voxel, x, jet);
             }
-            vertices.set(first + i, x, jet);
-            residuals[i] = float(std::abs(jet.value));
+            vertices.set(v, x, jet);
+            residuals[v - first] = float(std::abs(jet.value));
         }
     }
 }

@@ -28,18 +28,17 @@ struct SurfaceVertices {
     void set(std::size_t v, const openvdb::Vec3d& x, const Jet& jet);
 };
 
-/// Moves points onto S = 0 along the gradient by Newton's method, or, where the gradient fails, by
-/// bisection between two corners of their cells that lie on opposite sides.
+/// Moves vertices onto S = 0 along the gradient by Newton's method, or, where the gradient fails,
+/// by bisection between two corners of their cells that lie on opposite sides.
 ///
-/// It is fast if points of one leaf follow each other. What becomes of a point does not depend on
-/// the others.
+/// It is fast if vertices of one leaf follow each other. What becomes of a vertex does not depend
+/// on the others.
 ///
-/// @param[in]  voxel      of the mesher: no point moves farther [Å]
-/// @param[in]  starts     the points [Å], one for each of the vertices from `first` on
-/// @param[out] vertices   those vertices
-/// @param[out] residuals  |S| at each of them [Å], at most 1e-5 voxels but where it was bisected
-void moveToSurface(const Spline& spline, double voxel, const openvdb::Vec3s* starts,
-                   std::size_t count, std::size_t first, SurfaceVertices& vertices,
-                   float* residuals);
+/// @param[in]     voxel      of the mesher: no vertex moves farther [Å]
+/// @param[in]     first,end  the numbers of the vertices
+/// @param[in,out] vertices   their positions, and what follows from S there
+/// @param[out]    residuals  |S| at each of them [Å], at most 1e-5 voxels but where it was bisected
+void moveToSurface(const Spline& spline, double voxel, std::size_t first, std::size_t end,
+                   SurfaceVertices& vertices, float* residuals);
 
 } // namespace molsurf

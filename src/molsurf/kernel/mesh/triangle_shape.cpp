@@ -108,22 +108,22 @@ MOLSURF_INLINE int splitQuad(const Vec3f* const* p, const Vec3f* const* n, bool*
 
 } // namespace
 
-MOLSURF_KERNEL void splitQuads(const Mesh& mesh,
-                               const std::vector<std::array<std::uint32_t, 4>>& quads,
-                               std::array<std::uint32_t, 3>* out, VertexSet& bad)
+MOLSURF_KERNEL void splitQuads(std::size_t first, std::size_t end, Mesh& mesh, VertexSet& bad)
 {
-    for (const auto& q : quads) {
+    for (std::size_t i = first; i < end; i += 2) {
+        std::array<std::uint32_t, 3>* const t = mesh.triangles.data() + i;
+        const std::uint32_t q[4] = {t[0][0], t[0][1], t[0][2], t[1][2]};
         const Vec3f *p[4], *n[4];
         for (int k = 0; k < 4; ++k) {
             p[k] = &mesh.positions[q[k]];
             n[k] = &mesh.normals[q[k]];
         }
         bool isBad[2];
-        const int first = splitQuad(p, n, isBad);
-        for (int k = 0; k < 2; ++k, ++out) {
-            for (int c = 0; c < 3; ++c) (*out)[c] = q[halves[first + k][c]];
+        const int half = splitQuad(p, n, isBad);
+        for (int k = 0; k < 2; ++k) {
+            for (int c = 0; c < 3; ++c) t[k][c] = q[halves[half + k][c]];
             if (!isBad[k]) continue;
-            for (const std::uint32_t v : *out) bad.add(v);
+            for (const std::uint32_t v : t[k]) bad.add(v);
         }
     }
 }

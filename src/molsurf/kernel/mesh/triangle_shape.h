@@ -16,13 +16,19 @@
 namespace molsurf
 {
 
-/// Splits quads a b c d into two triangles each: along the shorter diagonal, unless the triangles
-/// of the other one agree clearly better with the normals at their corners.
-/// @param[in]  mesh   positions and normals
-/// @param[out] out    two triangles a quad
-/// @param[out] bad    the corners of needle-like and folded triangles are added to it
-void splitQuads(const Mesh& mesh, const std::vector<std::array<std::uint32_t, 4>>& quads,
-                std::array<std::uint32_t, 3>* out, VertexSet& bad);
+/// The two triangles of a quad a b c d that splitQuads() takes.
+inline std::array<std::array<std::uint32_t, 3>, 2> halvesOf(std::uint32_t a, std::uint32_t b,
+                                                            std::uint32_t c, std::uint32_t d)
+{
+    return {{{a, b, c}, {a, c, d}}};
+}
+
+/// Splits quads into two triangles each: along the shorter diagonal, unless the triangles of the
+/// other one agree clearly better with the normals at their corners.
+/// @param[in]     first,end  the numbers of the triangles
+/// @param[in,out] mesh       its triangles there, those of halvesOf() a quad
+/// @param[out]    bad        the corners of needle-like and folded triangles are added to it
+void splitQuads(std::size_t first, std::size_t end, Mesh& mesh, VertexSet& bad);
 
 /// Slides the vertices of bad triangles along the surface to the centroid of their neighbours, a
 /// few times. Blocks of 8 voxels take turns, and in each the vertices come as they are numbered.

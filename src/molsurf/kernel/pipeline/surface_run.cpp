@@ -2,6 +2,7 @@
 #include "molsurf/kernel/pipeline/surface_run.h"
 
 #include "molsurf/error.h"
+#include "molsurf/kernel/core/memory.h"
 #include "molsurf/kernel/core/parallel.h"
 #include "molsurf/kernel/core/strings.h"
 #include "molsurf/kernel/flow/equilibrium.h"
@@ -262,6 +263,7 @@ void SurfaceRun::distance()
     }
     if (options_.minThickness > 0.0)
         thickenWalls(S_, options_.minThickness, splineWidthOf(options_), progress_);
+    if (!scope_.keepsMemory) trimLargeHeap();
     watch_.stop("redistance");
 }
 
