@@ -105,7 +105,7 @@ FILES = {
     "ion.pqr": "ATOM 1 C ION 1 0 0 0 1 2\n",
     "dot.xyzr": "0 0 0 0.1\n", "tiny.xyzr": "0.4 0.4 0.4 0.3\n", "one.xyzr": "0 0 0 1\n", "two.xyzr": "0 0 0 1.7\n3 0 0 1.7\n",
     "apart.xyzr": "2.524 -36.942 -21.611 1.19\n5.501 -40.386 -18.396 2.1\n",
-    "far.xyzr": "2e4 0 0 1.7\n", "ball.xyzr": "0 0 0 100\n", "large.xyzr": "0 0 0 60\n",
+    "far.xyzr": "2e4 0 0 1.7\n", "ball.xyzr": "0 0 0 100\n", "large.xyzr": "0 0 0 60\n130 0 0 60\n",
     "two.xyz": "2\n\nC 0 0 0\nO 1.2 0 0\n", "all.cif": "data_a\nloop_\n" + "".join(
         f"_atom_site.{name}\n" for name in ("group_PDB id type_symbol label_atom_id label_comp_id label_asym_id label_seq_id Cartn_x "
                                             "Cartn_y Cartn_z auth_asym_id").split()) + "".join(
@@ -754,9 +754,9 @@ class Hints(Followed):
     @needs("memory")
     def test_little_memory(self):
         large = "vdb_molsurf large.xyzr --surface vdw --voxel"
-        self.follow("scale/bricks/plan_bricks.h", "which makes it in bricks", f"ulimit -v 460000; {large} 0.195 -o a.vdb",
+        self.follow("scale/bricks/plan_bricks.h", "which makes it in bricks", f"ulimit -v 460000; {large} 0.23 -o a.vdb",
                     f"ulimit -v 460000; {large} 0.4 -o b.vdb",
-                    f"ulimit -v 460000; {large} 0.195 --$({large} 0.195 -o a.vdb 2>&1 | grep -o 'memory [0-9.]*G') -o c.vdb")
+                    f"ulimit -v 460000; {large} 0.25 --$({large} 0.23 -o a.vdb 2>&1 | grep -o 'memory [0-9.]*G') -o c.vdb")
         self.follow("tools/build.cpp", "a surface of a larger --voxel",
                     "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 250000; "
                     "vdb_molsurf convert a.vdb -o a.ply",

@@ -618,8 +618,9 @@ private:
         // The stages after the flow run twice, the second time beside the first level set.
         const double filled = options_.fillCavities ? timesOfFill : 1.0;
         const double forMesh = std::max(filled * perLeaf * inSpline, forBalls);
-        return always + (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh
-                                  : std::max(bytesPerFlowLeaf * inFlow, forMesh));
+        const double forFlow = isUnion(options_.kind) ? 0.0 : bytesPerFlowLeaf * inFlow;
+        return always +
+               (keeping_ ? bytesPerKeptLeaf * inFlow + forMesh : std::max(forFlow, forMesh));
     }
 
     static void keep(const PlannedBrick& brick, std::vector<PlannedBrick>& out)
