@@ -5,6 +5,7 @@
 #include "verbs.h"
 
 #include "molsurf/error.h"
+#include "molsurf/kernel/core/memory.h"
 #include "molsurf/molecule/selection/search_places.h"
 #include "molsurf/molecule/selection/shown_atoms.h"
 #include "molsurf/molecule/structure/read_structure.h"
@@ -13,8 +14,6 @@
 #include "molsurf/show/io/read_vdb.h"
 #include "molsurf/surface/drawn_surface.h"
 #include "molsurf/surface/solver_files.h"
-
-#include <malloc.h>
 
 namespace molsurf::tool
 {
@@ -132,7 +131,7 @@ BallSet readBalls(CommandLine& call, Terminal& terminal, Report& report)
         readBalls(call.input, call, terminal, &call.picture);
     call.options.places = places;
     call.anchors = anchors;
-    malloc_trim(0); // what the parser has left is in pieces too small for the fields
+    trimHeap(); // what the parser has left is in pieces too small for the fields
     report.warnings = call.warnings;
     report.warnings.insert(report.warnings.end(), balls.record.warnings.begin(),
                            balls.record.warnings.end());

@@ -74,14 +74,7 @@ void needMemory(const std::string& what, double more, std::size_t memory)
 void trimHeap()
 {
 #ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-}
-
-void trimLargeHeap()
-{
-#ifdef __GLIBC__
-    if (mallinfo2().fordblks >= std::size_t(64) << 20) malloc_trim(0);
+    if (mallinfo2().fordblks > std::size_t(16) << 20) malloc_trim(0);
 #endif
 }
 

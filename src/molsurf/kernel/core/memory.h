@@ -26,11 +26,8 @@ bool hasMemory(double more, std::size_t memory);
 /// @throws Error(ErrorKind::Input) with both numbers
 void needMemory(const std::string& what, double more, std::size_t memory);
 
-/// Gives memory that was freed back to the system: the allocator keeps what many small pieces
-/// leave.
+/// Gives memory that was freed back to the system where it is more than 16 MiB: the allocator keeps
+/// what many small pieces leave. To get less anew would take longer than it is worth.
 void trimHeap();
-
-/// The same where it is much, some 64 MiB: to get less anew costs more than it is worth.
-void trimLargeHeap();
 
 } // namespace molsurf

@@ -40,7 +40,9 @@ public:
     }
     void release()
     {
+        constexpr std::size_t few = 8; // as trimHeap() keeps
         const std::lock_guard<std::mutex> lock(mutex_);
+        if (pages_.size() <= few) return;
         tbb::this_task_arena::isolate([&] { // nothing else begins here, which may ask for pages
             tbb::parallel_for(std::size_t(0), pages_.size(),
                               [&](std::size_t i) { madvise(pages_[i], pageBytes, MADV_DONTNEED); });

@@ -47,7 +47,7 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Gives the pages that no array has back to the system.
+/// Gives the pages that no array has back to the system where they are more than 16 MiB.
 void releasePages();
 
 /// An array that begins at a line of the cache, uninitialised when made.

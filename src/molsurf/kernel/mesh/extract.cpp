@@ -92,7 +92,7 @@ Mesh extractMesh(const openvdb::FloatGrid& surface, const Spline& spline, const 
         });
     };
     tbb::parallel_invoke(takePoints, takeQuads);
-    trimLargeHeap(); // of quads
+    trimHeap(); // of quads
     for (const char* name : {"mean_curvature", "gaussian_curvature"})
         mesh.scalars.push_back({name, {}});
     // The first touch of memory takes long: none of these waits for another.

@@ -263,7 +263,7 @@ void SurfaceRun::distance()
     }
     if (options_.minThickness > 0.0)
         thickenWalls(S_, options_.minThickness, splineWidthOf(options_), progress_);
-    if (!scope_.keepsMemory) trimLargeHeap();
+    if (!scope_.keepsMemory) trimHeap();
     watch_.stop("redistance");
 }
 
