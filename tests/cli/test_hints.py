@@ -756,7 +756,7 @@ class Hints(Followed):
         large = "vdb_molsurf large.xyzr --surface vdw --voxel"
         self.follow("scale/bricks/plan_bricks.h", "which makes it in bricks", f"ulimit -v 460000; {large} 0.23 -o a.vdb",
                     f"ulimit -v 460000; {large} 0.4 -o b.vdb",
-                    f"ulimit -v 460000; {large} 0.25 --$({large} 0.23 -o a.vdb 2>&1 | grep -o 'memory [0-9.]*G') -o c.vdb")
+                    f"ulimit -v 460000; {large} 0.23 --$({large} 0.23 -o a.vdb 2>&1 | grep -o 'memory [0-9.]*G') -o c.vdb")
         self.follow("tools/build.cpp", "a surface of a larger --voxel",
                     "vdb_molsurf 1crn.pdb --surface sas --voxel 0.1 -o a.vdb; ulimit -v 250000; "
                     "vdb_molsurf convert a.vdb -o a.ply",
