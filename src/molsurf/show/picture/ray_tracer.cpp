@@ -256,21 +256,22 @@ void Tracer::look(const Samples& samples, const Layer* front, Layer& layer) cons
 void Tracer::lookBetween(int y, Layer& layer) const
 {
     Samples others;
+    const auto fill = [&](int column, int row, const std::optional<Places>& about, bool alike) {
+        if (alike) {
+            layer.seen[placeOf(column, row)] = meanOf(layer, *about);
+        } else {
+            others.push_back({column, row});
+        }
+    };
     for (int x = 0; x < view_.width; ++x) {
         const int column = subpixels * x, row = subpixels * y;
         // What the four about the last sample see is smooth between any of them, too.
         const auto cell = sentAbout(column + 1, row + 1);
         const bool smooth = cell && areAlike(layer, *cell);
-        for (const std::array<int, 2>& at :
-             {std::array<int, 2>{column + 1, row}, std::array<int, 2>{column, row + 1},
-              std::array<int, 2>{column + 1, row + 1}}) {
-            const auto about = sentAbout(at[0], at[1]);
-            if (smooth || (about && areAlike(layer, *about))) {
-                layer.seen[placeOf(at[0], at[1])] = meanOf(layer, *about);
-            } else {
-                others.push_back(at);
-            }
-        }
+        const auto right = sentAbout(column + 1, row), below = sentAbout(column, row + 1);
+        fill(column + 1, row, right, smooth || (right && areAlike(layer, *right)));
+        fill(column, row + 1, below, smooth || (below && areAlike(layer, *below)));
+        fill(column + 1, row + 1, cell, smooth);
     }
     look(others, nullptr, layer);
 }
